@@ -64,7 +64,7 @@ class Experiment {
             if (t == milliseconds(250) && !trial_.fault.empty())
                 if (const auto done = rack::inject_fault(rack_, trial_.fault, "step"); !done)
                     fmt::print("{}\n", done.error().text());
-            look(t);
+            poll(t);
         }
     }
 
@@ -87,7 +87,7 @@ class Experiment {
         return nm < 1e5 ? fmt::format("{:.0f} nm", nm) : fmt::format("{:.1f} mm", nm * 1e-6);
     }
 
-    void look(Instant t) {
+    void poll(Instant t) {
         const double mask = mask_.motor->position_nm(t), apart = mask - ratio * wafer_.motor->position_nm(t),
                      seconds = to_seconds(t);
         record_.seconds.push_back(seconds);

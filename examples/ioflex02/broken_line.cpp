@@ -20,7 +20,7 @@ motionrack::Result<void> broken_line() {
             bench.run(milliseconds(20));
             if (ms == 1'400) bench.fault(0, fault.name, fault.value);
             const AxisDetail now = bench.flex().read_details()[0];
-            for (const Finding& finding : check.look(now)) {
+            for (const Finding& finding : check.update(now)) {
                 fmt::print("  {}\n", describe(finding, now, "spindle"));
                 ++told;
             }

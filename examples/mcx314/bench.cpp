@@ -31,10 +31,10 @@ std::string Bench::speeds(const std::string& title, unsigned axes) {
         if (!(axes >> axis & 1u)) continue;
         chart.series.push_back({std::string(1, "XYZU"[axis]), std::string(1, "xyza"[axis]), pen.seconds, pen.mm_s});
     }
-    trace::SvgLook look;
-    look.standalone = true;
-    look.height = 300;
-    return trace::svg_chart(chart, look);
+    trace::SvgStyle style;
+    style.standalone = true;
+    style.height = 300;
+    return trace::svg_chart(chart, style);
 }
 
 std::string Bench::path(const std::string& title) {
@@ -53,10 +53,10 @@ std::string Bench::path(const std::string& title) {
         if (y_next) at[1] = static_cast<double>(y[k++].second) * mm_per_pulse;
         data.driven.push_back(at);
     }
-    trace::SvgLook look;
-    look.standalone = true;
-    look.height = 420;
-    return trace::svg_path(data, trace::PathView::plan, look);
+    trace::SvgStyle style;
+    style.standalone = true;
+    style.height = 420;
+    return trace::svg_path(data, trace::PathView::plan, style);
 }
 
 }  // namespace howto

@@ -10,7 +10,7 @@ namespace motionrack::control {
 
 namespace {
 
-constexpr Duration look_every = milliseconds(1);
+constexpr Duration poll_period = milliseconds(1);
 
 }  // namespace
 
@@ -86,7 +86,7 @@ Result<void> PointToPointAxes::wait() {
             ended = fail(ErrorKind::stopped, "Stopped on request; every axis stopped with its own deceleration.");
             stop(false);
         }
-        host_.pass(look_every);
+        host_.pass(poll_period);
     }
 }
 

@@ -32,7 +32,7 @@ bool FramePublisher::put(const Frame& frame) {
         publisher_.publish(frame);
         ++frames_;
     }
-    publisher_.look();
+    publisher_.poll();
     if (settings_.report)
         for (BusEvent event; publisher_.next_event(event);) settings_.report(event);
     if (settings_.progress) settings_.progress(publisher_.sent(), monotonic_now() - due);

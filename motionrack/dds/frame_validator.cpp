@@ -247,7 +247,7 @@ void FrameValidator::forget_silent(Instant now) {
     }
 }
 
-void FrameValidator::look(Instant now) {
+void FrameValidator::poll(Instant now) {
     forget_silent(now);
     if (!joined_ || now - used_at_ <= Duration{2 * pace_}) return;
     if (!stale_) {

@@ -65,7 +65,7 @@ class FrameValidator {
     /// is used.
     Validation take(const Sample& sample, Instant now);
     /// Advances the time to `now` without a sample: detects stale data and silent sources.
-    void look(Instant now);
+    void poll(Instant now);
 
     /// True if a source owns the bus; the functions below are valid only then.
     bool joined() const { return joined_; }

@@ -54,7 +54,7 @@ class NetworkPublisher final : public Publisher {
         return good;
     }
 
-    void look() override {
+    void poll() override {
         const Instant now = others_->poll([this](const Sample& other, Validation verdict, Instant received) {
             if (verdict == Validation::wrong_crc || verdict == Validation::foreign || verdict == Validation::malformed)
                 return;

@@ -24,7 +24,7 @@ class Publisher {
     /// its content or the network refused it: both are counted.
     virtual bool publish(const Frame& frame) = 0;
     /// Checks for other publishers; the `source` of a conflict event is this publisher.
-    virtual void look() = 0;
+    virtual void poll() = 0;
     virtual bool next_event(BusEvent& event) = 0;
 
     const PublisherIdentity& source() const { return source_; }

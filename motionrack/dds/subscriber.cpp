@@ -44,7 +44,7 @@ class NetworkSubscriber final : public Subscriber {
             if (use) use(slot.sample, verdict, last_);
         }
         last_ = std::max(last_, now);
-        judge_.look(last_);
+        judge_.poll(last_);
         return last_;
     }
 

@@ -27,7 +27,7 @@ class Looked final : public Source {
   public:
     explicit Looked(std::unique_ptr<Source> source) : source_(std::move(source)) {}
     /// The first bytes, up to 512.
-    Result<std::string_view> look() {
+    Result<std::string_view> peek() {
         while (size_ < head_.size()) {
             MOTIONRACK_TRY(const std::size_t got, source_->read(head_.data() + size_, head_.size() - size_));
             if (got == 0) break;
@@ -83,7 +83,7 @@ const char* name_of(Format format) {
 Result<std::unique_ptr<Capture>> open_capture(std::unique_ptr<Source> source, const std::string& name,
                                               const CaptureSettings& settings) {
     auto looked = std::make_unique<Looked>(std::move(source));
-    MOTIONRACK_TRY(const std::string_view head, looked->look());
+    MOTIONRACK_TRY(const std::string_view head, looked->peek());
     if (head.empty()) return fail(ErrorKind::invalid_input, "The file is empty. Nothing was decoded.", {}, name);
     const Format format = settings.format == Format::automatic ? guess(name, head) : settings.format;
     if (settings.format != Format::raw && head.rfind("PK\3\4", 0) == 0)

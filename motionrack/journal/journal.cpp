@@ -21,7 +21,7 @@ namespace motionrack::journal {
 namespace {
 
 /// Interval of the file checks while nothing is written.
-constexpr std::chrono::milliseconds look_every{250};
+constexpr std::chrono::milliseconds poll_period{250};
 
 std::int64_t utc_ms() {
     return std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::system_clock::now().time_since_epoch())
@@ -207,7 +207,7 @@ void Journal::work() {
         {
             std::unique_lock<std::mutex> guard(alone_);
             const auto changed = [this] { return quit_ || !waiting_.empty() || !keeping_.empty(); };
-            if (!wake_up_.wait_for(guard, look_every, changed)) {
+            if (!wake_up_.wait_for(guard, poll_period, changed)) {
                 guard.unlock();
                 if (const Result<void> there = files_->check(); !there) failed(there.error().message);
                 continue;
@@ -231,7 +231,7 @@ void Journal::work() {
 }
 
 void Journal::keep_quota(Instant at) {
-    const Result<std::string> changed = quota_->look(*writer_);
+    const Result<std::string> changed = quota_->check(*writer_);
     if (!changed) {
         (void)writer_->run("ROLLBACK");
         return failed(fmt::format("could not be kept within its quota: {}", changed.error().message));

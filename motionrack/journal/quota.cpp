@@ -11,7 +11,7 @@ std::int64_t bytes_used(const Database& file) {
     return file.number("PRAGMA page_size") * (file.number("PRAGMA page_count") - file.number("PRAGMA freelist_count"));
 }
 
-Result<std::string> Quota::look(const Database& file) {
+Result<std::string> Quota::check(const Database& file) {
     const std::int64_t used = bytes_used(file);
     const double share = static_cast<double>(used) / static_cast<double>(max_bytes_), of_mb = 1e-6;
     if (share >= 1) {

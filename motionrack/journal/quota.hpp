@@ -22,7 +22,7 @@ class Quota {
     explicit Quota(std::int64_t max_bytes) : max_bytes_(max_bytes) {}
 
     /// On the writing thread, between transactions. Returns the sentence, or empty. Errors: io.
-    Result<std::string> look(const Database& file);
+    Result<std::string> check(const Database& file);
 
   private:
     std::int64_t max_bytes_;

@@ -37,10 +37,10 @@ void OverflowLog::block(const rtc5::Samples& s) {
     });
     if (inside) return any_open ? finish(s.first) : void();
     for (std::size_t i = 0; i < s.corrected_x.size(); ++i)
-        look(s.first + static_cast<std::int64_t>(i), {s.corrected_x[i], s.corrected_y[i]}, s.laser[i] > 0);
+        sample(s.first + static_cast<std::int64_t>(i), {s.corrected_x[i], s.corrected_y[i]}, s.laser[i] > 0);
 }
 
-void OverflowLog::look(std::int64_t tick, rtc5::Point at, bool laser) {
+void OverflowLog::sample(std::int64_t tick, rtc5::Point at, bool laser) {
     for (std::size_t i = 0; i < edges.size(); ++i) {
         Open& edge = edges_[i];
         const double beyond = edges[i].beyond(at);

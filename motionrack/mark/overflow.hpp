@@ -47,7 +47,7 @@ class OverflowLog {
         rtc5::Point at;
         double beyond = 0;  ///< bits
     };
-    void look(std::int64_t tick, rtc5::Point at, bool laser);
+    void sample(std::int64_t tick, rtc5::Point at, bool laser);
     void close(std::size_t edge, std::int64_t tick);
 
     double k_;

@@ -124,7 +124,7 @@ std::string crosses(const Plot& plot, const std::vector<Overflow>& overflows, co
     return out;
 }
 
-Part part_of(const Scene& scene, const Marked* marked, const char* title, const char* look) {
+Part part_of(const Scene& scene, const Marked* marked, const char* title, const char* style) {
     Part part;
     part.title = title;
     part.width = scene.wide() ? line_width : column;
@@ -150,7 +150,7 @@ Part part_of(const Scene& scene, const Marked* marked, const char* title, const 
                                   d.worst_at.y, of_part(*marked), shown_length(d.rms_mm)),
                       d.missing_mm > 0 ? fmt::format("{} of the drawing not marked", shown_length(d.missing_mm))
                                        : "all of the drawing marked"};
-        part.body += plot.strokes(marks_of(*marked), look);
+        part.body += plot.strokes(marks_of(*marked), style);
         part.body +=
             crosses(plot, marked->overflows, [&](const Overflow& o) { return marked->parts[o.part_no].shown(o.part); });
         const std::size_t worst = worst_part(*marked);
@@ -187,7 +187,7 @@ Part field_of(const Scene& scene) {
 }
 
 /// Surroundings of the point of maximum deviation; empty if the whole picture shows it as well.
-Part worst_of(const Scene& scene, const Marked& marked, const char* title, const char* look) {
+Part worst_of(const Scene& scene, const Marked& marked, const char* title, const char* style) {
     Part part;
     const parts::Deviation& d = marked.deviation;
     const double reach = std::max(d.worst_mm * 2, 2e-4);
@@ -202,7 +202,7 @@ Part worst_of(const Scene& scene, const Marked& marked, const char* title, const
                               of_part(marked)),
                   fmt::format("marked at {:.5f} s", d.worst_s)};
     part.body = plot.strokes(nodes_of(std::span<const parts::DrawnSegment>(segments)), "planned") +
-                plot.strokes(marks_of(marked, worst), look) + plot.line(on, d.worst_at, "off-by") +
+                plot.strokes(marks_of(marked, worst), style) + plot.line(on, d.worst_at, "off-by") +
                 plot.ring(d.worst_at) + plot.scale_bar();
     return part;
 }
@@ -271,22 +271,22 @@ std::string picture_svg(const Prepared& prepared, const MarkingOutcome& out) {
     }
     y += heading + parts.details.front().height + gap;
     x = margin;
-    for (const auto& [look, name] : {std::pair{"planned", "drawing"},
-                                     {"driven", "marked with correction"},
-                                     {"without", "marked without"},
-                                     {"box", "field"},
-                                     {"jumps", "laser off"}}) {
-        if (look == std::string_view("driven") && !out.off) continue;
-        body += fmt::format("<path class=\"{}\" d=\"M{} {}h26\"/>\n", look, x, y + 4) +
+    for (const auto& [style, name] : {std::pair{"planned", "drawing"},
+                                      {"driven", "marked with correction"},
+                                      {"without", "marked without"},
+                                      {"box", "field"},
+                                      {"jumps", "laser off"}}) {
+        if (style == std::string_view("driven") && !out.off) continue;
+        body += fmt::format("<path class=\"{}\" d=\"M{} {}h26\"/>\n", style, x, y + 4) +
                 trace::svg_text(x + 34, y + 8, "start", name);
         x += 34 + 7 * static_cast<int>(std::string_view(name).size()) + 18;
     }
     body += fmt::format("<circle class=\"ring\" cx=\"{}\" cy=\"{}\" r=\"7\"/>\n", x + 8, y + 4) +
             trace::svg_text(x + 24, y + 8, "start", "maximum deviation");
-    trace::SvgLook look;
-    look.width = widest + margin, look.height = y + foot, look.standalone = true;
-    return trace::svg_head(look, "The marked part") + sheet_style +
-           fmt::format("<rect class=\"ground\" width=\"{}\" height=\"{}\"/>\n", look.width, look.height) + body +
+    trace::SvgStyle style;
+    style.width = widest + margin, style.height = y + foot, style.standalone = true;
+    return trace::svg_head(style, "The marked part") + sheet_style +
+           fmt::format("<rect class=\"ground\" width=\"{}\" height=\"{}\"/>\n", style.width, style.height) + body +
            "</svg>\n";
 }
 

@@ -97,7 +97,7 @@ std::vector<StrokePoint> Plot::clipped(std::span<const StrokePoint> nodes) const
     return out;
 }
 
-std::string Plot::strokes(std::span<const StrokePoint> nodes, const char* look) const {
+std::string Plot::strokes(std::span<const StrokePoint> nodes, const char* style) const {
     const std::vector<StrokePoint> seen = clipped(nodes);
     std::vector<trace::PathPoint> points;
     std::vector<bool> ends;
@@ -116,7 +116,7 @@ std::string Plot::strokes(std::span<const StrokePoint> nodes, const char* look) 
         data += coordinate(points[i][0]) + " " + coordinate(points[i][1]);
         before = i;
     }
-    return data.empty() ? std::string() : fmt::format("<path class=\"{}\" d=\"{}\"/>\n", look, data);
+    return data.empty() ? std::string() : fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, data);
 }
 
 std::string Plot::grid() const {
@@ -136,15 +136,15 @@ std::string Plot::grid() const {
     return out;
 }
 
-std::string Plot::outline(const Box& box, const char* look) const {
+std::string Plot::outline(const Box& box, const char* style) const {
     const std::vector<StrokePoint> corners = {
         {box.low, true}, {{box.high.x, box.low.y}}, {box.high}, {{box.low.x, box.high.y}}, {box.low}};
-    return strokes(corners, look);
+    return strokes(corners, style);
 }
 
-std::string Plot::line(Spot from, Spot to, const char* look) const {
+std::string Plot::line(Spot from, Spot to, const char* style) const {
     const std::vector<StrokePoint> ends = {{from, true}, {to}};
-    return strokes(ends, look);
+    return strokes(ends, style);
 }
 
 std::string Plot::ring(Spot at) const {

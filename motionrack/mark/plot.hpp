@@ -34,9 +34,9 @@ class Plot {
 
     /// Grid lines at steps of 1, 2 or 5, with labels in mm.
     std::string grid() const;
-    std::string strokes(std::span<const StrokePoint> nodes, const char* look) const;
-    std::string outline(const Box& box, const char* look) const;
-    std::string line(Spot from, Spot to, const char* look) const;
+    std::string strokes(std::span<const StrokePoint> nodes, const char* style) const;
+    std::string outline(const Box& box, const char* style) const;
+    std::string line(Spot from, Spot to, const char* style) const;
     std::string ring(Spot at) const;
     std::string cross(Spot at, const std::string& title) const;
     std::string scale_bar() const;

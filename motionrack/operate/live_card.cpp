@@ -31,7 +31,7 @@ Result<std::unique_ptr<LiveCard>> LiveCard::open(const LivePlace& place, rack::R
     const rack::CardKind* const kind = rack::find_card_kind(rack.config().card(place.card)->type);
     std::unique_ptr<LiveCard> card(new LiveCard(place, rack, *kind));
     MOTIONRACK_CHECK(card->open_port());
-    card->look();
+    card->poll();
     if (card->lost_) return tl::unexpected<Error>(*card->lost_);
     return card;
 }
@@ -77,17 +77,17 @@ std::uint8_t LiveCard::in(std::uint8_t port) {
     return lost_ ? std::uint8_t{0} : value;
 }
 
-void LiveCard::look() {
+void LiveCard::poll() {
     if (lost_ || gives_up_) return;
     Result<rack::RegisterView> view = kind_.view(bus(), false);
     if (!view && !lost_) lost_ = view.error();
     if (lost_) return;
-    looked_ = now();
+    polled_ = now();
     registers_ = {std::move(*view), host_.now()};
 }
 
 void LiveCard::look_now_and_then() {
-    if (!stop_requested() && now() - looked_ >= registers_every) look();
+    if (!stop_requested() && now() - polled_ >= registers_every) poll();
 }
 
 // ---- waits
@@ -141,7 +141,7 @@ std::optional<Error> LiveCard::doubt() const {
 }
 
 bool LiveCard::stands_after_stop(FunctionLibrary& library) {
-    for (int look = 0; look < max_live_looks; ++look) {
+    for (int poll = 0; poll < max_live_looks; ++poll) {
         library.stop_now();
         const bool moves = library.moving();
         if (lost_) return false;

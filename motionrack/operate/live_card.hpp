@@ -72,8 +72,8 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
 
     // ---- interface for the service
     /// Reads all registers now; writes the commands that reading takes, which move nothing.
-    void look();
-    /// Calls look() if the last look was half a second ago. A card with byte ports is not read while a function waits:
+    void poll();
+    /// Calls poll() if the last poll was half a second ago. A card with byte ports is not read while a function waits:
     /// a handshake is not interrupted.
     void look_now_and_then();
     const LiveRegisters& registers() const { return registers_; }
@@ -104,7 +104,7 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     std::optional<live::LastStop> last_stop_;
     std::optional<Error> lost_;
     LiveRegisters registers_;
-    Instant looked_{};                ///< last look, on this clock
+    Instant polled_{};                ///< last look, on this clock
     Instant passed_{};                ///< instant of this clock up to which virtual time has followed
     std::optional<Instant> stopped_;  ///< since when a function has waited with a stop in force
     int stop_waits_ = 0;              ///< waits since then

@@ -29,7 +29,7 @@ void Machine::slice() {
         take_stop();
         if (hands_over_) continue;
         if (!is_stationary(state_))  // a move may take long
-            for (Alarm& one : validity_.look(now(), state_))
+            for (Alarm& one : validity_.poll(now(), state_))
                 raise(std::move(one.source), std::move(one.text), one.axis);
         publish_status();
     }
@@ -38,7 +38,7 @@ void Machine::slice() {
 /// Called in every slice, in any state.
 void Machine::take_stop() {
     rack::StopLatch& latch = rack_.stop_latch();
-    latch.look();
+    latch.poll();
     for (std::string& text : latch.contacts().take_alarms()) raise("emergency stop", std::move(text));
     const bool in_work =
         (state_ == MachineState::moving && !stream_->last_probe().runs) || state_ == MachineState::hold;
@@ -92,7 +92,7 @@ void Machine::step() {
     }
     if (manual_access_.any()) return manual_access_.step();
     if (jogs_.any()) return jog_all();
-    for (Alarm& one : validity_.look(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
+    for (Alarm& one : validity_.poll(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
     const bool drives = stream_->state() == control::ExecutionState::running ||

@@ -10,7 +10,7 @@ namespace motionrack::operate {
 namespace {
 
 /// Delay after which the effect of an immediate stop on a fast motor shows.
-constexpr Duration look_every = milliseconds(20);
+constexpr Duration poll_period = milliseconds(20);
 /// More would not help a servo that is pushed each time.
 constexpr int max_takes = 3;
 
@@ -65,16 +65,16 @@ void PositionValidity::invalidate_reset(bool comes_to_rest, std::vector<Alarm>& 
 }
 
 /// During homing positions are not known yet; during a stop, the stop's own alarm reports the losses.
-std::vector<Alarm> PositionValidity::look(Instant now, MachineState state) {
+std::vector<Alarm> PositionValidity::poll(Instant now, MachineState state) {
     std::vector<Alarm> out;
     if (state == MachineState::homing || now < due_) return out;
-    rack_.stop_latch().following().look(now);
+    rack_.stop_latch().following().poll(now);
     const bool comes_to_rest = rack_.stop_latch().latched() && state != MachineState::error_stop;
     invalidate_reset(comes_to_rest, out);
     if (comes_to_rest) return out;
-    due_ = now + look_every;
+    due_ = now + poll_period;
     const bool stand = is_stationary(state), stood = std::exchange(stood_, stand);
-    for (const rack::ValidityFinding& found : watch_.look(stand && stood)) {
+    for (const rack::ValidityFinding& found : watch_.poll(stand && stood)) {
         if (found.axis == rack::ValidityFinding::no_axis) {
             Alarm& alarm = out.emplace_back();
             alarm.source = "stage";

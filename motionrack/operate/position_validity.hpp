@@ -34,7 +34,7 @@ class PositionValidity {
     void begin_at_home(char letter, Instant since);
     /// Returns alarms with source, text and axis for losses, count errors and following errors since the last look.
     /// Call regularly between motions.
-    std::vector<Alarm> look(Instant now, MachineState state);
+    std::vector<Alarm> poll(Instant now, MachineState state);
     /// Invalidates axes that have lost their own position. Call at standstill. Returns their letters: "X, Y".
     std::string invalidate_unknown();
 

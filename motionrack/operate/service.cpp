@@ -153,7 +153,7 @@ Result<void> Service::take_library() {
     MOTIONRACK_TRY(live_, LiveCard::open(*place, machine_.rack_));
     library_ = live_->make_library();
     MOTIONRACK_CHECK(library_->begin());
-    live_->look();
+    live_->poll();
     if (live_->lost()) return tl::unexpected<Error>(*live_->lost());
     return {};
 }
@@ -164,7 +164,7 @@ void Service::work() {
     Result<CallAnswer> answer = library_->call(one.call.function, one.call.values);
     working_.clear();
     if (live_) {
-        if (!stop_) live_->look();
+        if (!stop_) live_->poll();
         if (std::optional<Error> doubt = live_->doubt()) answer = tl::unexpected<Error>(std::move(*doubt));
     }
     one.ready(std::move(answer));

@@ -25,8 +25,8 @@ std::string_view unit_of(std::string_view name) {
 
 }  // namespace
 
-std::string_view name_of(ChannelReader looks) {
-    switch (looks) {
+std::string_view name_of(ChannelReader reader) {
+    switch (reader) {
         case ChannelReader::edges:
             return "edges";
         case ChannelReader::anytime:
@@ -56,12 +56,12 @@ ChannelRegistry::ChannelRegistry(operate::Machine& machine) : service_(machine.s
     add_cards(machine.rack());
 }
 
-void ChannelRegistry::add(std::string name, std::string_view unit, std::string_view text, ChannelReader looks,
+void ChannelRegistry::add(std::string name, std::string_view unit, std::string_view text, ChannelReader reader,
                           std::function<double()> read) {
     if (service_.live_place(card_part(name)) != nullptr) return;
     std::string key = name;
     channels_.try_emplace(std::move(key),
-                          Channel{std::move(name), std::string(unit), std::string(text), looks, std::move(read)});
+                          Channel{std::move(name), std::string(unit), std::string(text), reader, std::move(read)});
 }
 
 void ChannelRegistry::add_axes(operate::Machine& machine) {
@@ -98,8 +98,8 @@ void ChannelRegistry::add_wires(operate::Machine& machine) {
     rack::WireAccess& wires = machine.wires();
     for (const rack::WireAccess::Named& wire : wires.names()) {
         const std::string name(wire.name);
-        const ChannelReader looks = wire.volts || !wire.recorded ? ChannelReader::anytime : ChannelReader::edges;
-        add(name, wire.volts ? "V" : "", wire.volts ? "voltage of a wire" : "level of a wire", looks,
+        const ChannelReader reader = wire.volts || !wire.recorded ? ChannelReader::anytime : ChannelReader::edges;
+        add(name, wire.volts ? "V" : "", wire.volts ? "voltage of a wire" : "level of a wire", reader,
             [&wires, name] { return wires.get(name).value_or(unknown); });
     }
 }

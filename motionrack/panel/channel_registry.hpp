@@ -22,13 +22,13 @@ enum class ChannelReader : std::uint8_t {
     anytime,  ///< also within a run of the kernel: reading does not allocate
     slices    ///< between runs
 };
-std::string_view name_of(ChannelReader looks);
+std::string_view name_of(ChannelReader reader);
 
 struct Channel {
     std::string name;
     std::string unit;
     std::string text;  ///< one sentence
-    ChannelReader looks = ChannelReader::slices;
+    ChannelReader reader = ChannelReader::slices;
     std::function<double()> read;  ///< on the motion thread; without side effects
 };
 
@@ -53,7 +53,7 @@ class ChannelRegistry {
     void show(std::int64_t sequence, Instant at);
 
   private:
-    void add(std::string name, std::string_view unit, std::string_view text, ChannelReader looks,
+    void add(std::string name, std::string_view unit, std::string_view text, ChannelReader reader,
              std::function<double()> read);
     void add_axes(operate::Machine& machine);
     void add_quantities(rack::Rack& rack);

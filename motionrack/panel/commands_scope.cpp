@@ -23,7 +23,7 @@ Result<json> arm(PanelContext& context, const json& fields) {
 }
 
 /// Writes the data as JSON in the worker, in parallel with motion.
-void look(PanelContext& context, const json& fields, Ready ready) {
+void read_capture(PanelContext& context, const json& fields, Ready ready) {
     const ScopeSettings& settings = context.scope.settings();
     json out = {{"state", name_of(context.scope.state())},
                 {"channels", settings.channels},
@@ -50,7 +50,7 @@ constexpr std::array scope_rows = {
                      }},
     OperationHandler{"scope", nullptr,
                      [](PanelContext& context, const Caller&, const json& fields, Ready ready) {
-                         look(context, fields, std::move(ready));
+                         read_capture(context, fields, std::move(ready));
                      }},
 };
 

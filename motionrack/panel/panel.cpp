@@ -47,14 +47,14 @@ class Panel::Inside {
             for (const OperationHandler& doer : table) doers_[doer.name] = &doer;
         for (const std::span<const OperationSpec> table : {commands(), queries()})
             for (const OperationSpec& row : table) MOTIONRACK_ASSERT(row.external || doers_.count(row.name) == 1);
-        machine.listen([this](const operate::Status& status) { look(status); },
+        machine.listen([this](const operate::Status& status) { observe(status); },
                        [this](const operate::StopReport& report) { logbook_.stopped(report); });
         show(machine.status());
     }
 
     /// Call every slice: reports changes, and publishes a status periodically.
-    void look(const operate::Status& status) {
-        loss_.look();
+    void observe(const operate::Status& status) {
+        loss_.poll();
         look_for_control();
         logbook_.see(status);
         answer_orders();
@@ -99,8 +99,8 @@ class Panel::Inside {
 
     /// Reports conditions of cards and parts: lost steps, missed edges.
     void report_conditions(std::chrono::steady_clock::time_point real) {
-        if (real - looked_ < 20 * context_.settings.picture_every) return;
-        looked_ = real;
+        if (real - polled_ < 20 * context_.settings.picture_every) return;
+        polled_ = real;
         rack::Rack& rack = context_.machine.rack();
         const std::vector<sim::Condition> all = rack.kernel().conditions();
         const std::uint64_t first = rack.kernel().dropped_conditions();
@@ -174,7 +174,7 @@ class Panel::Inside {
     RecordLoss loss_;
     std::map<std::string_view, const OperationHandler*> doers_;
     std::vector<Taken> taken_;
-    std::chrono::steady_clock::time_point shown_{}, looked_{};
+    std::chrono::steady_clock::time_point shown_{}, polled_{};
     std::uint64_t reported_ = 0;
 };
 

@@ -17,7 +17,7 @@ Result<json> channels_of(PanelContext& context) {
     json list = json::array();
     for (const auto& [name, channel] : context.channels.all())
         list.push_back(
-            {{"name", name}, {"unit", channel.unit}, {"text", channel.text}, {"looks", name_of(channel.looks)}});
+            {{"name", name}, {"unit", channel.unit}, {"text", channel.text}, {"looks", name_of(channel.reader)}});
     return json{{"channels", std::move(list)}};
 }
 

@@ -21,7 +21,7 @@ bool is_taken_without_record(const OperationSpec& row) {
 
 }  // namespace
 
-void RecordLoss::look() {
+void RecordLoss::poll() {
     if (lost_ || context_.settings.journal == nullptr) return;
     const std::string failure = context_.settings.journal->failure();
     if (failure.empty()) return;

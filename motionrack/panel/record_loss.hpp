@@ -10,7 +10,7 @@ class RecordLoss {
     explicit RecordLoss(PanelContext& context) : context_(context) {}
     /// Call every slice. On the first failure of the journal: holds the machine, raises its alarm, and prevents cards
     /// from starting lists by themselves.
-    void look();
+    void poll();
     /// Errors: refused. Queries, stops, releases and jogs are accepted although they are not recorded.
     Result<void> may(const OperationSpec& row) const;
     /// Returns the answer to an accepted command whose journal entry is `kept`.

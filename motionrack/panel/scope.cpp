@@ -64,7 +64,7 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
             return fail(ErrorKind::invalid_input,
                         fmt::format("Unknown channel {}; the query channels lists all channels.",
                                     rack::in_quotes(settings.channels[i])));
-        if (channel->looks == ChannelReader::edges)
+        if (channel->reader == ChannelReader::edges)
             wires.push_back(channel->name);
         else
             numbers.push_back({channel, i, 0});
@@ -126,7 +126,7 @@ void Scope::begin_numbers() {
 void Scope::sample(Instant) {
     double* row = &samples_[static_cast<std::size_t>(written_ % rows_) * numbers_.size()];
     for (const NumericChannel& number : numbers_)
-        *row++ = number.channel->looks == ChannelReader::anytime ? number.channel->read() : number.slow;
+        *row++ = number.channel->reader == ChannelReader::anytime ? number.channel->read() : number.slow;
     ++written_;
 }
 
@@ -198,7 +198,7 @@ void Scope::slice(Instant now) {
     if (state_ != ScopeState::armed && state_ != ScopeState::triggered) return;
     if (recorder_) recorder_->drain();
     for (NumericChannel& number : numbers_)
-        if (number.channel->looks != ChannelReader::anytime) number.slow = number.channel->read();
+        if (number.channel->reader != ChannelReader::anytime) number.slow = number.channel->read();
     if (state_ == ScopeState::armed) {
         look_for_trigger();
         if (trigger_place_ == nowhere && now - armed_at_ >= settings_.pre) {
@@ -222,7 +222,7 @@ void Scope::finish() {
     for (std::size_t i = 0; i < settings_.channels.size(); ++i) {
         const Channel* channel = book_.find(settings_.channels[i]);
         capture->traces.push_back(
-            {channel->name, channel->unit, channel->looks == ChannelReader::edges, base_[i], {}, {}});
+            {channel->name, channel->unit, channel->reader == ChannelReader::edges, base_[i], {}, {}});
     }
     for (const ScopeEdge& edge : edges_) {
         if (edge.at > to) break;

@@ -82,8 +82,8 @@ JumpLaw::JumpLaw(double start_hz, double accel_hz, Duration period) {
     const double balanced = accel_hz > 0 ? std::sqrt(1.5 * count_rounding / accel_hz) : 0;
     const double window =
         std::clamp(std::max(pulses_of_start / start_hz, balanced), min_window, to_seconds(max_window));
-    looks = static_cast<std::size_t>(std::max(1.0, std::ceil(window / to_seconds(period))));
-    seconds = static_cast<double>(looks) * to_seconds(period);
+    samples = static_cast<std::size_t>(std::max(1.0, std::ceil(window / to_seconds(period))));
+    seconds = static_cast<double>(samples) * to_seconds(period);
     explained_ = accel_hz * seconds * seconds;
     allowed_ = start_reserve * start_hz * seconds + explained_ + count_rounding;
 }
@@ -94,15 +94,15 @@ double JumpLaw::jump_hz(std::int64_t first, std::int64_t middle, std::int64_t la
 }
 
 JumpWatch::JumpWatch(double start_hz, double accel_hz, Duration period)
-    : law_(start_hz, accel_hz, period), period_(period), counts_(law_.looks > 0 ? 2 * law_.looks + 1 : 0) {}
+    : law_(start_hz, accel_hz, period), period_(period), counts_(law_.samples > 0 ? 2 * law_.samples + 1 : 0) {}
 
-JumpWatch::Jump JumpWatch::look(std::int64_t count) {
+JumpWatch::Jump JumpWatch::sample(std::int64_t count) {
     if (counts_.empty()) return {};
     const std::size_t size = counts_.size();
     counts_[seen_ % size] = count;
     ++seen_;
     if (seen_ < size) return {};
-    const double hz = law_.jump_hz(counts_[seen_ % size], counts_[(seen_ - 1 - law_.looks) % size], count);
+    const double hz = law_.jump_hz(counts_[seen_ % size], counts_[(seen_ - 1 - law_.samples) % size], count);
     const bool jumped = std::exchange(jumps_, hz > 0);
     return {hz, jumps_ && !jumped};
 }

@@ -59,9 +59,9 @@ struct JumpLaw {
     JumpLaw(double start_hz, double accel_hz, Duration period);
     static constexpr Duration max_window = milliseconds(8);
 
-    std::size_t looks = 0;  ///< samples per window; 0: the check is off
-    double seconds = 0;     ///< duration of a window
-    double end_hz = 0;      ///< pulses/s: highest rate one period before a ramp ends
+    std::size_t samples = 0;  ///< samples per window; 0: the check is off
+    double seconds = 0;       ///< duration of a window
+    double end_hz = 0;        ///< pulses/s: highest rate one period before a ramp ends
     /// Takes the counts at the start of the first window, at its end, and at the end of the second. Returns the
     /// pulses/s above what the acceleration limit explains, or 0 if the step is allowed.
     double jump_hz(std::int64_t first, std::int64_t middle, std::int64_t last) const;
@@ -82,9 +82,9 @@ class JumpWatch {
     };
     /// Takes the pulses sent up to now. Returns the velocity step in the middle of the two windows that end now, if too
     /// large.
-    Jump look(std::int64_t count);
+    Jump sample(std::int64_t count);
     /// Time since the middle of the windows.
-    Duration middle() const { return period_ * static_cast<std::int64_t>(law_.looks); }
+    Duration middle() const { return period_ * static_cast<std::int64_t>(law_.samples); }
 
   private:
     JumpLaw law_;

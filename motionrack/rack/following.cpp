@@ -129,10 +129,10 @@ void FollowingWatch::follow_servo(std::size_t i, std::int64_t turned, Instant no
 
 void FollowingWatch::on_scheduled(Instant now) {
     kernel_.schedule(id_, later(now, look_at_following_every));
-    look(now);
+    poll(now);
 }
 
-void FollowingWatch::look(Instant now) {
+void FollowingWatch::poll(Instant now) {
     for (std::size_t i = 0; state_.on != 0 && i < watched_.size(); ++i) {
         const Watched& watched = watched_[i];
         ErrorState& own = state_.axes[i];

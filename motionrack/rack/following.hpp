@@ -42,7 +42,7 @@ class FollowingWatch final : public sim::Device {
     /// Ends supervision.
     void end();
     /// Evaluates immediately, without waiting for the millisecond.
-    void look(Instant now);
+    void poll(Instant now);
 
     /// An axis above its warning limit, with the largest error seen up to now.
     struct Warning {

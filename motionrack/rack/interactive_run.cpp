@@ -10,8 +10,8 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr std::size_t max_probes = 2000;    // reported probes
-constexpr Duration look = milliseconds(1);  // time step of an idle host
+constexpr std::size_t max_probes = 2000;           // reported probes
+constexpr Duration poll_period = milliseconds(1);  // time step of an idle host
 
 }  // namespace
 
@@ -106,7 +106,7 @@ Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const Comma
         if (!driven) return tl::unexpected<Error>(driven.error());
         switch (*driven) {
             case ExecutionState::waiting:
-                host.pass(look);
+                host.pass(poll_period);
                 break;
             case ExecutionState::feed_hold:
                 if (!commands.holds())
@@ -116,7 +116,7 @@ Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const Comma
                                 fmt::format("The job was held in line {}, and not resumed.", stream.current_line()),
                                 {stream.current_line(), 0}, file);
                 else
-                    host.pass(look);
+                    host.pass(poll_period);
                 break;
             case ExecutionState::paused:
                 stream.resume();

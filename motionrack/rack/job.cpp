@@ -230,7 +230,7 @@ JobOutcome Job::run() {
 
 /// An axis with an invalid position prevents the next program from starting.
 void Job::judge_positions(ValidityWatch& validity, JobOutcome& out) {
-    for (ValidityFinding& found : validity.look(true)) {
+    for (ValidityFinding& found : validity.poll(true)) {
         if (found.axis == ValidityFinding::no_axis) continue;  // reported with the conditions
         if (found.lost) {
             out.position_valid = false;
@@ -276,7 +276,7 @@ void Job::report_stop(JobOutcome& out) {
     StopLatch& latch = rack_.stop_latch();
     const bool failed = !out.ended && out.ended.error().kind == ErrorKind::machine;
     latch.settle(failed);
-    if (latch.latched()) latch.look();
+    if (latch.latched()) latch.poll();
     const auto lost = [&](const RunningAxis& axis) { return !latch.keeps_position(axis.config.index()); };
     if (failed && std::any_of(rack_.axes().begin(), rack_.axes().end(), lost))
         out.ended.error().message += ' ' + latch.position_sentence();

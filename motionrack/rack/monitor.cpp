@@ -130,7 +130,7 @@ void Monitor::finish() {
 void Monitor::on_scheduled(Instant now) {
     take(now);
     for (std::size_t i = 0; i < axes_.size(); ++i)
-        listeners_[i].velocity.look(axes_[i].commanded->count(now), axes_[i].commanded->rate(now), now);
+        listeners_[i].velocity.sample(axes_[i].commanded->count(now), axes_[i].commanded->rate(now), now);
     if (running_) kernel_.schedule(id_, now + period_);
 }
 
@@ -257,7 +257,7 @@ Breach Monitor::breach_here(const MonitorSample& sample) const {
 
 void Monitor::look_for_jumps(const RawSample& raw, const MonitorSample& sample) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        const JumpWatch::Jump jump = seen_.jump_watches[i].look(raw.commanded[i]);
+        const JumpWatch::Jump jump = seen_.jump_watches[i].sample(raw.commanded[i]);
         if (jump.hz <= 0) continue;
         Breach breach = breach_here(sample);
         breach.kind = BreachKind::jump;

@@ -46,7 +46,7 @@ void PeakVelocity::end_piece() {
     whole_pulses_ = false;
 }
 
-void PeakVelocity::look(std::int64_t count, double rate, Instant now) {
+void PeakVelocity::sample(std::int64_t count, double rate, Instant now) {
     pass(rate, now);
     for (std::size_t window = min_looks_; window <= std::min(looks_, max_looks - 1); window *= 2) {
         const auto pulses = static_cast<double>(std::abs(count - counts_[(looks_ - window) % max_looks]));

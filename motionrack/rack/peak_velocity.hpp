@@ -19,7 +19,7 @@ class PeakVelocity {
     /// Reports a rate change from `before` to `rate`, pulses/s.
     void changed(double before, double rate, Instant now);
     /// Call every period with the pulse count and the present rate.
-    void look(std::int64_t count, double rate, Instant now);
+    void sample(std::int64_t count, double rate, Instant now);
     /// Ends the last segment.
     void finish();
     double hz() const { return top_; }

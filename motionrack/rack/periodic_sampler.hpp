@@ -11,19 +11,19 @@ class PeriodicSampler final : public sim::Device {
     /// Call before the rack starts.
     explicit PeriodicSampler(sim::Kernel& kernel)
         : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "probe")) {}
-    /// Calls `look` every `period` (> 0) from this instant, within the kernel's run; it must neither allocate nor
+    /// Calls `sample` every `period` (> 0) from this instant, within the kernel's run; it must neither allocate nor
     /// change anything. Call between runs.
-    void begin(Duration period, std::function<void(Instant now)> look) {
+    void begin(Duration period, std::function<void(Instant now)> sample) {
         period_ = period;
-        look_ = std::move(look);
+        sample_ = std::move(sample);
         kernel_.schedule(id_, kernel_.now());
     }
     void end() {
         kernel_.schedule(id_, never);
-        look_ = nullptr;
+        sample_ = nullptr;
     }
     void on_scheduled(Instant now) override {
-        look_(now);
+        sample_(now);
         kernel_.schedule(id_, now + period_);
     }
 
@@ -31,7 +31,7 @@ class PeriodicSampler final : public sim::Device {
     sim::Kernel& kernel_;
     sim::DeviceId id_;
     Duration period_{};
-    std::function<void(Instant)> look_;
+    std::function<void(Instant)> sample_;
 };
 
 }  // namespace motionrack::rack

@@ -328,7 +328,7 @@ void Rack::on_slice(Duration slice, const std::function<void()>& call) {
     if (call)
         heard = [this, call] {
             call();
-            stop_latch_->look();
+            stop_latch_->poll();
         };
     for (const auto& card : cards_) card->host().on_slice(slice, heard);
 }

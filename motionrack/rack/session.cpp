@@ -62,28 +62,28 @@ Result<void> Session::advance(std::uint64_t ns) {
 
 void Session::run_to(Instant until) {
     while (true) {
-        look();
+        poll();
         const sim::RunEnd end = rack_.kernel().run_until(
-            std::min(until, next_look_), on_condition_ ? sim::RunBreak::conditions : sim::RunBreak::none);
+            std::min(until, next_poll_), on_condition_ ? sim::RunBreak::conditions : sim::RunBreak::none);
         if (end == sim::RunEnd::broken && recorder_) recorder_->drain_settled();
         report_conditions();
         if (end == sim::RunEnd::reached && now() >= until) break;
     }
-    look();
+    poll();
 }
 
 /// Lets a due recording sample the registers and write its data to the disk.
-void Session::look() {
-    if (now() < next_look_) return;
-    recorder_->look();
+void Session::poll() {
+    if (now() < next_poll_) return;
+    recorder_->poll();
     recorder_->drain_settled();
     const Duration period = recorder_->register_period();
-    next_look_ = (now() / period + 1) * period;
+    next_poll_ = (now() / period + 1) * period;
 }
 
 /// Called while a program, a homing or a card's host advances time.
 void Session::between() {
-    look();
+    poll();
     if (recorder_) recorder_->drain_settled();
     report_conditions();
 }
@@ -95,7 +95,7 @@ Result<std::uint32_t> Session::read(std::string_view card, int bits, std::uint32
     MOTIONRACK_TRY(Card * on, card_for_access(rack_, card, bits, address, false));
     MOTIONRACK_CHECK(room_for(milliseconds(1)));
     const std::uint32_t value = on->bus_read(bits, address);
-    look();
+    poll();
     report_conditions();
     return value;
 }
@@ -105,7 +105,7 @@ Result<void> Session::write(std::string_view card, int bits, std::uint32_t addre
     MOTIONRACK_TRY(Card * on, card_for_access(rack_, card, bits, address, true));
     MOTIONRACK_CHECK(room_for(milliseconds(1)));
     on->bus_write(bits, address, value);
-    look();
+    poll();
     report_conditions();
     return {};
 }
@@ -116,9 +116,9 @@ Result<bool> Session::wait(std::string_view card, std::uint64_t ns) {
     constexpr Duration drained_within = microseconds(10);  // interval at which the data of a recording is fetched
     const Instant end = now() + time;
     bool active = false;
-    for (look(); !active; look()) {
+    for (poll(); !active; poll()) {
         const Duration left = end - now();
-        active = on->host().wait(recorder_ ? std::min({left, drained_within, next_look_ - now()}) : left);
+        active = on->host().wait(recorder_ ? std::min({left, drained_within, next_poll_ - now()}) : left);
         between();
         if (now() >= end) break;
     }
@@ -229,7 +229,7 @@ Result<void> Session::start_trace(const std::string& path, std::string_view sign
     }
     if (recorder_ && !recorder_->can_end_again()) recorder_.reset();  // a lost recording no longer blocks its name
     MOTIONRACK_TRY(recorder_, WaveRecorder::create(rack_, settings));
-    next_look_ = now();
+    next_poll_ = now();
     return {};
 }
 
@@ -243,7 +243,7 @@ Result<void> Session::stop_trace() {
         return ended;
     }
     recorder_.reset();
-    next_look_ = never;
+    next_poll_ = never;
     return {};
 }
 

@@ -144,7 +144,7 @@ class Session {
     }
     Result<Duration> time_of(std::uint64_t ns) const;
     void run_to(Instant until);
-    void look();
+    void poll();
     void between();
     void report_conditions();
     std::uint64_t condition_count() const;
@@ -164,7 +164,7 @@ class Session {
     WireAccess context_;
     std::unique_ptr<WaveRecorder> recorder_;
     Duration trace_unit_{0};
-    Instant next_look_ = never;  // next sampling of the registers by the recorder
+    Instant next_poll_ = never;  // next sampling of the registers by the recorder
 };
 
 }  // namespace motionrack::rack

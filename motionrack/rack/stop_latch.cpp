@@ -150,7 +150,7 @@ bool StopLatch::left_to_card(const Input& input, Instant now) const {
     switch (input.source) {
         case StopSource::limit_switch:
             return axes[static_cast<std::size_t>(input.axis)].moves(now) && !is_behind(input, now);
-        case StopSource::emergency_stop:  // look() finds the cards that have received it
+        case StopSource::emergency_stop:  // poll() finds the cards that have received it
             return std::any_of(axes.begin(), axes.end(), [now](const RunningAxis& axis) { return axis.moves(now); });
         case StopSource::watchdog:
             return std::any_of(axes.begin(), axes.end(), [&](const RunningAxis& axis) { return axis.moves(now); }) &&
@@ -239,7 +239,7 @@ void StopLatch::note_lost(StopSource source, const Input* input, Instant now) {
 
 void StopLatch::stop() {
     trip(StopSource::stop_command, -1, kernel_.now());
-    look();
+    poll();
 }
 
 bool StopLatch::is_on_card(const RunningAxis& axis, const Input& input) const {
@@ -260,7 +260,7 @@ void StopLatch::look_at_watchdogs() {
     state_.heard = dropped + conditions.size();
 }
 
-void StopLatch::look() {
+void StopLatch::poll() {
     if (state_.armed != 0 && has_watchdogs_) look_at_watchdogs();
     if (state_.armed != 0 && state_.heeds_door != 0 && state_.latched == 0 && contacts_.door_open()) {
         state_.by_door = 1;

@@ -5,7 +5,7 @@
 //        │ edge, in the kernel, at its tick                             │
 //        └──────────────────────────────► trip ◄────────────────────────┘
 //                                          ├──► halted(): hosts stop waiting, no motion starts
-//                                          └──► break_run ──► look(): the reactions, see stop_reactions.hpp
+//                                          └──► break_run ──► poll(): the reactions, see stop_reactions.hpp
 //
 //   released ── trip ──► latched ── reset(), no cause left ──► released       (a reset moves nothing)
 //
@@ -58,7 +58,7 @@ class StopLatch final : public sim::Device {
     /// true: the driver holds the feed while the door is open; false: an open door is a stop command.
     void heed_door(bool on) { state_.heeds_door = on; }
     /// Executes the reactions. Call between runs, in every slice of the driver.
-    void look();
+    void poll();
     /// Call between runs when the driver has seen all axes at standstill.
     /// `failed`: a motion has failed. Then the axes may have been stopped without a stop in force, because a switch
     /// that was active before the motion began does not set the latch.

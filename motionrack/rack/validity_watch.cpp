@@ -27,7 +27,7 @@ void ValidityWatch::begin(std::size_t axis, const Mark& from) {
     for (const sim::Condition& condition : rack_.kernel().conditions()) look_for_lost(axis, condition, early_);
 }
 
-std::vector<ValidityFinding> ValidityWatch::look(bool standing) {
+std::vector<ValidityFinding> ValidityWatch::poll(bool standing) {
     std::vector<ValidityFinding> out = std::exchange(early_, {});
     look_at_conditions(out);
     for (FollowingWatch::Warning& warning : rack_.stop_latch().following().take_warnings())

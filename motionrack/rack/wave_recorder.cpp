@@ -307,7 +307,7 @@ void WaveRecorder::stop_listening() {
 }
 
 Result<void> WaveRecorder::finish() {
-    look();
+    poll();
     drain();
     Result<void> ended = sink_->close(std::max(rack_.kernel().now(), last_));
     if (ended && lost_ > 0)

@@ -53,7 +53,7 @@ struct WaveSettings {
 class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver {
   public:
     /// Before the rack starts: creates a device that samples the registers by itself after begin(). In a running rack:
-    /// its owner calls look(). Errors: io; refused (the unit); invalid_input if no signal matches the patterns. On
+    /// its owner calls poll(). Errors: io; refused (the unit); invalid_input if no signal matches the patterns. On
     /// error the rack is unchanged.
     static Result<std::unique_ptr<WaveRecorder>> create(Rack& rack, const WaveSettings& settings);
     ~WaveRecorder() override;
@@ -61,7 +61,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     /// Call after the rack has started, if the recorder was created before that.
     void begin();
     /// Samples the registers. Call between runs.
-    void look() { look_at_cards(rack_.kernel().now()); }
+    void poll() { look_at_cards(rack_.kernel().now()); }
     /// Writes the buffered changes. Call between runs.
     void drain();
     /// Writes the buffered changes except those of the last microseconds, which may be incomplete. The file does not

@@ -30,10 +30,10 @@ std::string filled(std::string_view page, const Parts& parts) {
 }
 
 std::string path_svg(const ReportData& data, PathView view) {
-    SvgLook look;
-    look.width = 680;
-    look.height = 480;
-    return svg_path(data, view, look);
+    SvgStyle style;
+    style.width = 680;
+    style.height = 480;
+    return svg_path(data, view, style);
 }
 
 std::string script() {

@@ -115,7 +115,7 @@ struct ReportTable {
 /// A series over ReportData::seconds in a separate chart.
 struct ReportSeries {
     std::string title;  ///< with unit: "X, mm"
-    std::string look;   ///< "x", "y", "z", "a", "b", "c" or "d"
+    std::string style;  ///< "x", "y", "z", "a", "b", "c" or "d"
     std::vector<float> values;
     std::string limits_name;     ///< "field"
     std::vector<double> limits;  ///< empty, or two

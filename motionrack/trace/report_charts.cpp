@@ -71,8 +71,8 @@ std::string chart_json(const ReportData& data, const PageChart& entry, std::size
     const std::string name = entry.axis < 0 ? "" : data.axes[static_cast<std::size_t>(entry.axis)].name;
     return fmt::format(
         "{{\"name\":{},\"title\":{},\"look\":\"{}\",\"range\":[{},{}],\"limits\":[{}],\"t\":{},\"v\":{}}}",
-        json_string(name), json_string(entry.chart.title), series.look, json_number(range.low), json_number(range.high),
-        limits, packed(times, second), packed(values, fine_step(values)));
+        json_string(name), json_string(entry.chart.title), series.style, json_number(range.low),
+        json_number(range.high), limits, packed(times, second), packed(values, fine_step(values)));
 }
 
 std::string xyz_json(const Xyz& p) {
@@ -128,37 +128,37 @@ std::string extent_json(const BoundingBox& extent) {
     return fmt::format("[{},{}]", xyz_json(extent.low), xyz_json(extent.high));
 }
 
-SvgChart chart(std::string title, std::string look, const ReportData& data, const std::vector<float>& values) {
+SvgChart chart(std::string title, std::string style, const ReportData& data, const std::vector<float>& values) {
     SvgChart out;
     out.title = std::move(title);
-    out.series.push_back({"", std::move(look), data.seconds, values});
+    out.series.push_back({"", std::move(style), data.seconds, values});
     return out;
 }
 
 void add_axis(const ReportData& data, std::size_t index, std::vector<PageChart>& charts) {
     const ReportAxis& axis = data.axes[index];
     const char letter = axis.name.empty() ? 'd' : axis.name[0];
-    const std::string look(1, letter >= 'X' && letter <= 'Z'   ? static_cast<char>(letter - 'X' + 'x')
-                              : letter >= 'A' && letter <= 'C' ? static_cast<char>(letter - 'A' + 'a')
-                                                               : 'd');
+    const std::string style(1, letter >= 'X' && letter <= 'Z'   ? static_cast<char>(letter - 'X' + 'x')
+                               : letter >= 'A' && letter <= 'C' ? static_cast<char>(letter - 'A' + 'a')
+                                                                : 'd');
     const int number_of = static_cast<int>(index);
     if (!axis.position.empty()) {
-        SvgChart out = chart("Position, " + axis.unit, look, data, axis.position);
+        SvgChart out = chart("Position, " + axis.unit, style, data, axis.position);
         if (axis.min_position < axis.max_position) out.limits = {{axis.min_position, ""}, {axis.max_position, ""}};
         charts.push_back({number_of, std::move(out)});
     }
     if (!axis.velocity.empty()) {
-        SvgChart out = chart("Velocity, " + axis.unit + "/s", look, data, axis.velocity);
+        SvgChart out = chart("Velocity, " + axis.unit + "/s", style, data, axis.velocity);
         if (axis.max_velocity > 0) out.limits = {{axis.max_velocity, ""}, {-axis.max_velocity, ""}};
         charts.push_back({number_of, std::move(out)});
     }
     if (!axis.accel.empty()) {
-        SvgChart out = chart("Acceleration, " + axis.unit + "/s\xC2\xB2", look, data, axis.accel);
+        SvgChart out = chart("Acceleration, " + axis.unit + "/s\xC2\xB2", style, data, axis.accel);
         if (axis.max_accel > 0) out.limits = {{axis.max_accel, ""}, {-axis.max_accel, ""}};
         charts.push_back({number_of, std::move(out)});
     }
     if (!axis.volts.empty())
-        charts.push_back({number_of, chart("Voltage at the amplifier, V", look, data, axis.volts)});
+        charts.push_back({number_of, chart("Voltage at the amplifier, V", style, data, axis.volts)});
 }
 
 std::string limits_as_text(const std::vector<SvgLimit>& limits) {
@@ -182,16 +182,16 @@ std::string limit_words(const SvgChart& chart, bool& drawn) {
 }
 
 std::string chart_html(const PageChart& entry, std::size_t index, int width, int height) {
-    SvgLook look;
-    look.width = width;
-    look.height = height;
+    SvgStyle style;
+    style.width = width;
+    style.height = height;
     bool drawn = false;
     const std::string limit = limit_words(entry.chart, drawn);
     return fmt::format(
         "<figure class=\"chart\" data-chart=\"{}\"><figcaption><span class=\"name\">{}</span>"
         "<output></output><span class=\"limit-words{}\">{}</span></figcaption>\n<div "
         "class=\"plot\">{}</div></figure>\n",
-        index, shown(entry.chart.title), drawn ? " drawn" : "", escaped(limit), svg_chart(entry.chart, look));
+        index, shown(entry.chart.title), drawn ? " drawn" : "", escaped(limit), svg_chart(entry.chart, style));
 }
 
 }  // namespace
@@ -208,7 +208,7 @@ std::vector<PageChart> charts_of(const ReportData& data) {
     for (std::size_t i = 0; i < std::min(data.series.size(), max_axes); ++i) {
         const ReportSeries& series = data.series[i];
         if (series.values.empty()) continue;
-        SvgChart out = chart(series.title, series.look, data, series.values);
+        SvgChart out = chart(series.title, series.style, data, series.values);
         for (const double limit : series.limits) out.limits.push_back({limit, series.limits_name});
         charts.push_back({-1, std::move(out)});
     }
@@ -223,7 +223,7 @@ std::string charts_html(const ReportData& data, const std::vector<PageChart>& ch
         if (charts[i].axis != open) {
             const ReportAxis& axis = data.axes[static_cast<std::size_t>(charts[i].axis)];
             if (open >= 0) out += "</article>\n";
-            out += "<article class=\"card axis look-" + charts[i].chart.series.front().look + "\"><h3>Axis " +
+            out += "<article class=\"card axis look-" + charts[i].chart.series.front().style + "\"><h3>Axis " +
                    shown(axis.name) + "</h3>\n";
             open = charts[i].axis;
         }

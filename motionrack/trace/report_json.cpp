@@ -143,7 +143,7 @@ void fields_of(ReportTable& v, Fields& f) {
     f("title", v.title)("caption", v.caption)("heads", v.heads)("rows", v.rows);
 }
 void fields_of(ReportSeries& v, Fields& f) {
-    f("title", v.title)("look", v.look)("values", v.values)("limits_name", v.limits_name)("limits", v.limits);
+    f("title", v.title)("look", v.style)("values", v.values)("limits_name", v.limits_name)("limits", v.limits);
 }
 void fields_of(ReportSource& v, Fields& f) {
     f("title", v.title)("text", v.text);

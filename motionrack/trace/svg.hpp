@@ -13,7 +13,7 @@
 
 namespace motionrack::trace {
 
-struct SvgLook {
+struct SvgStyle {
     int width = 720;          ///< px, 100 .. 10000
     int height = 540;         ///< px, 100 .. 10000
     bool standalone = false;  ///< a separate file with its own style; else uses the style of the page
@@ -43,11 +43,11 @@ struct SvgShade {
 };
 
 /// Planned and actual path (at most 4,000 points each), travel, start, end, point of maximum deviation, stop.
-std::string svg_path(const ReportData& data, PathView view, const SvgLook& look = {}, const SvgShade& shade = {});
+std::string svg_path(const ReportData& data, PathView view, const SvgStyle& style = {}, const SvgShade& shade = {});
 
 struct SvgSeries {
     std::string name;                 ///< empty: not labelled
-    std::string look;                 ///< class of the line: "x", "y", "z", "a", "b", "c" or "d"
+    std::string style;                ///< class of the line: "x", "y", "z", "a", "b", "c" or "d"
     std::span<const double> seconds;  ///< the data must outlive the picture
     std::span<const float> values;    ///< as long as seconds
 };
@@ -72,7 +72,7 @@ struct ChartRange {
 ChartRange range_of(const SvgChart& chart);
 
 /// Values over time, decimated without losing extremes.
-std::string svg_chart(const SvgChart& chart, const SvgLook& look = {});
+std::string svg_chart(const SvgChart& chart, const SvgStyle& style = {});
 
 /// A named time span.
 struct SvgSpan {
@@ -84,7 +84,7 @@ struct SvgSpan {
 /// Charts of the same time span below each other, and below them a band of named spans. `look.height` is the total
 /// height. All series must have the same first and last second.
 std::string svg_timeline(const std::string& title, std::span<const SvgChart> charts, std::span<const SvgSpan> spans,
-                         const SvgLook& look = {});
+                         const SvgStyle& style = {});
 
 /// A picture made without `standalone`, as wide as a column.
 struct SvgPart {

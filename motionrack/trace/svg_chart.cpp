@@ -19,20 +19,20 @@ struct Frame {
     double begin = 0;
     double end = 1;
     ChartRange range;
-    SvgLook look;
+    SvgStyle style;
 
     double x(double seconds) const {
-        return plot_left + (seconds - begin) / (end - begin) * (look.width - plot_left - plot_right);
+        return plot_left + (seconds - begin) / (end - begin) * (style.width - plot_left - plot_right);
     }
     double y(double value) const {
-        return look.height - plot_bottom -
-               (value - range.low) / (range.high - range.low) * (look.height - plot_top - plot_bottom);
+        return style.height - plot_bottom -
+               (value - range.low) / (range.high - range.low) * (style.height - plot_top - plot_bottom);
     }
 };
 
-Frame frame_for(const SvgChart& chart, const SvgLook& look) {
+Frame frame_for(const SvgChart& chart, const SvgStyle& style) {
     Frame frame;
-    frame.look = look;
+    frame.style = style;
     frame.range = range_of(chart);
     bool some = false;
     for (const SvgSeries& series : chart.series) {
@@ -54,7 +54,7 @@ std::string straight(double x1, double y1, double x2, double y2, const char* kin
 
 std::string scales(const Frame& frame) {
     std::string out;
-    const double width = frame.look.width, height = frame.look.height;
+    const double width = frame.style.width, height = frame.style.height;
     const double step = nice_step(frame.range.high - frame.range.low,
                                   std::max(2, static_cast<int>((height - plot_top - plot_bottom) / 22)));
     for (int i = 0; i < 100; ++i) {
@@ -77,9 +77,9 @@ std::string limit_lines(const SvgChart& chart, const Frame& frame) {
     std::string out;
     for (const SvgLimit& limit : chart.limits) {
         if (!(limit.value >= frame.range.low && limit.value <= frame.range.high)) continue;
-        out += straight(plot_left, frame.y(limit.value), frame.look.width - plot_right, frame.y(limit.value), "limit");
+        out += straight(plot_left, frame.y(limit.value), frame.style.width - plot_right, frame.y(limit.value), "limit");
         if (!limit.name.empty()) {
-            out += svg_text(frame.look.width - plot_right - 4, frame.y(limit.value) + 12, "end", limit.name);
+            out += svg_text(frame.style.width - plot_right - 4, frame.y(limit.value) + 12, "end", limit.name);
         }
     }
     return out;
@@ -88,7 +88,7 @@ std::string limit_lines(const SvgChart& chart, const Frame& frame) {
 std::string line_of(const SvgSeries& series, const Frame& frame) {
     const std::vector<std::size_t> kept = thin_series(series.seconds, series.values, buckets);
     if (kept.empty()) return {};
-    std::string out = fmt::format("<polyline class=\"line {}\" points=\"", escaped(series.look));
+    std::string out = fmt::format("<polyline class=\"line {}\" points=\"", escaped(series.style));
     for (const std::size_t i : kept) {
         out += coordinate(frame.x(series.seconds[i])) + ',' +
                coordinate(frame.y(static_cast<double>(series.values[i]))) + ' ';
@@ -99,10 +99,10 @@ std::string line_of(const SvgSeries& series, const Frame& frame) {
 }
 
 /// Title, series names with their line styles, and the label of the time axis.
-std::string chart_heading(const SvgChart& chart, const SvgLook& look) {
+std::string chart_heading(const SvgChart& chart, const SvgStyle& style) {
     return fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", plot_left, escaped(chart.title)) +
-           series_names(chart, look.width - plot_right - 64, 15) +
-           svg_text(look.width - plot_right, 15, "end", "time in s");
+           series_names(chart, style.width - plot_right - 64, 15) +
+           svg_text(style.width - plot_right, 15, "end", "time in s");
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ std::string series_names(const SvgChart& chart, double right_end, double baselin
         if (series->name.empty()) continue;
         out += svg_text(x, baseline, "end", series->name);
         x -= 6.0 * static_cast<double>(series->name.size()) + 7;
-        out += straight(x - 20, baseline - 4, x, baseline - 4, ("line " + escaped(series->look)).c_str());
+        out += straight(x - 20, baseline - 4, x, baseline - 4, ("line " + escaped(series->style)).c_str());
         x -= 36;
     }
     return out;
@@ -146,12 +146,12 @@ ChartRange range_of(const SvgChart& chart) {
     return {low == 0 && span > 0 ? 0 : low - air, high == 0 && span > 0 ? 0 : high + air};
 }
 
-std::string svg_chart(const SvgChart& chart, const SvgLook& look) {
-    const Frame frame = frame_for(chart, look);
-    std::string out = svg_head(look, chart.title + " over time");
+std::string svg_chart(const SvgChart& chart, const SvgStyle& style) {
+    const Frame frame = frame_for(chart, style);
+    std::string out = svg_head(style, chart.title + " over time");
     out += scales(frame) + limit_lines(chart, frame);
     for (const SvgSeries& series : chart.series) out += line_of(series, frame);
-    if (look.standalone) out += chart_heading(chart, look);
+    if (style.standalone) out += chart_heading(chart, style);
     return out + "</svg>\n";
 }
 

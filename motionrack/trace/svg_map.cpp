@@ -17,7 +17,7 @@ constexpr int scale_steps = 20;
 
 class Map {
   public:
-    Map(const SvgMap& map, const SvgLook& look) : map_(map), look_(look) {
+    Map(const SvgMap& map, const SvgStyle& style) : map_(map), style_(style) {
         std::set<double> xs, ys;
         std::set<std::pair<double, double>> places;
         bool some = false;
@@ -38,7 +38,7 @@ class Map {
     }
 
     std::string draw() const {
-        std::string out = svg_head(look_, map_.title + " over " + map_.x_name + " and " + map_.y_name);
+        std::string out = svg_head(style_, map_.title + " over " + map_.x_name + " and " + map_.y_name);
         out += fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", coordinate(map_left),
                            escaped(map_.title)) +
                scale();
@@ -46,15 +46,15 @@ class Map {
         if (!map_.spots.empty()) out += ticks();
         for (std::size_t i = 0; i < map_.spots.size(); i += every)
             out += cells_ ? cell(map_.spots[i]) : dot(map_.spots[i]);
-        out += svg_text((map_left + look_.width - map_right) / 2, look_.height - 5, "middle", map_.x_name);
+        out += svg_text((map_left + style_.width - map_right) / 2, style_.height - 5, "middle", map_.x_name);
         out += fmt::format("<text transform=\"translate(12 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                           coordinate((map_top + look_.height - map_bottom) / 2), escaped(map_.y_name));
+                           coordinate((map_top + style_.height - map_bottom) / 2), escaped(map_.y_name));
         return out + "</svg>\n";
     }
 
   private:
-    double wide() const { return look_.width - map_left - map_right; }
-    double tall() const { return look_.height - map_top - map_bottom; }
+    double wide() const { return style_.width - map_left - map_right; }
+    double tall() const { return style_.height - map_top - map_bottom; }
     double cell_width() const { return wide() / static_cast<double>(xs_.size()); }
     double cell_height() const { return tall() / static_cast<double>(ys_.size()); }
     static std::size_t index(const std::vector<double>& all, double one) {
@@ -99,7 +99,7 @@ class Map {
             return at;
         };
         for (const double value : along(xs_, cell_width(), 44, cells_))
-            out += svg_text(x(value), look_.height - map_bottom + 15, "middle", number(value));
+            out += svg_text(x(value), style_.height - map_bottom + 15, "middle", number(value));
         for (const double value : along(ys_, cell_height(), 14, cells_))
             out += svg_text(map_left - 6, y(value) + 4, "end", number(value));
         return out;
@@ -142,7 +142,7 @@ class Map {
     }
 
     const SvgMap& map_;
-    const SvgLook look_;
+    const SvgStyle style_;
     std::vector<double> xs_, ys_;
     bool cells_ = false;
     int digits_ = 0;  ///< decimals of the numbers in cells; below 2: no numbers
@@ -151,8 +151,8 @@ class Map {
 
 }  // namespace
 
-std::string svg_map(const SvgMap& map, const SvgLook& look) {
-    return Map(map, look).draw();
+std::string svg_map(const SvgMap& map, const SvgStyle& style) {
+    return Map(map, style).draw();
 }
 
 }  // namespace motionrack::trace

@@ -14,7 +14,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr const char* style =
+constexpr const char* style_sheet =
     "<style>svg{background:#fff;font:11px system-ui,sans-serif}text{fill:#3c4a57}polyline,path{fill:none}"
     ".grid{stroke:#e3e8ed}.box{stroke:#8a97a3;stroke-dasharray:2 3}.planned{stroke:#b9cbe0;stroke-width:5;"
     "stroke-linejoin:round}.planned.traverse{stroke-dasharray:7 7}.driven{stroke:#0b5cab;"
@@ -34,10 +34,10 @@ bool same_place(const Xyz& a, const Xyz& b) {
 
 }  // namespace
 
-std::string svg_head(const SvgLook& look, const std::string& title) {
-    const char* space = look.standalone ? " xmlns=\"http://www.w3.org/2000/svg\"" : "";
-    return fmt::format("<svg{} viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{}\n", space, look.width,
-                       look.height, escaped(title), look.standalone ? style : "");
+std::string svg_head(const SvgStyle& style, const std::string& title) {
+    const char* space = style.standalone ? " xmlns=\"http://www.w3.org/2000/svg\"" : "";
+    return fmt::format("<svg{} viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{}\n", space, style.width,
+                       style.height, escaped(title), style.standalone ? style_sheet : "");
 }
 
 std::string svg_text(double x, double y, const char* anchor, const std::string& text) {

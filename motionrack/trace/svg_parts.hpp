@@ -13,7 +13,7 @@ inline constexpr double chart_left = 56, chart_right = 12;
 inline constexpr double letter_width = 6.2;
 
 /// Returns the opening tag, with `title` for screen readers.
-std::string svg_head(const SvgLook& look, const std::string& title);
+std::string svg_head(const SvgStyle& style, const std::string& title);
 
 /// `anchor`: "start", "middle" or "end". Escapes the text.
 std::string svg_text(double x, double y, const char* anchor, const std::string& text);

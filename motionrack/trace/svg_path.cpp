@@ -24,13 +24,13 @@ struct Flat {
 /// Converts machine coordinates to pixels.
 class Projection {
   public:
-    Projection(const BoundingBox& frame, PathView view, const SvgLook& look) : view_(view) {
+    Projection(const BoundingBox& frame, PathView view, const SvgStyle& style) : view_(view) {
         for (std::size_t i = 0; i < 3; ++i) centre_[i] = (frame.low[i] + frame.high[i]) / 2;
-        middle_ = {look.width / 2.0, look.height / 2.0};
+        middle_ = {style.width / 2.0, style.height / 2.0};
         const SinCos yaw = sin_cos(-0.61), tilt = sin_cos(0.55);
         turn_ = {yaw.cos, yaw.sin, tilt.cos, tilt.sin};
         far_ = std::max(frame.diagonal(), 1e-6) * 2;
-        const double wide = look.width - 2 * edge, high = look.height - 2 * edge;
+        const double wide = style.width - 2 * edge, high = style.height - 2 * edge;
         double across = 1e-9, up = 1e-9;
         for (int corner = 0; corner < 8; ++corner) {
             const Flat at = (*this)({(corner & 1 ? frame.low : frame.high)[0], (corner & 2 ? frame.low : frame.high)[1],
@@ -63,9 +63,9 @@ class Projection {
     double scale_ = 1;
 };
 
-std::string line_through(const std::vector<Flat>& points, const char* look) {
+std::string line_through(const std::vector<Flat>& points, const char* style) {
     if (points.size() < 2) return {};
-    std::string out = fmt::format("<polyline class=\"{}\" points=\"", look);
+    std::string out = fmt::format("<polyline class=\"{}\" points=\"", style);
     for (const Flat& p : points) {
         out += coordinate(p.x) + ',' + coordinate(p.y) + ' ';
     }
@@ -74,8 +74,8 @@ std::string line_through(const std::vector<Flat>& points, const char* look) {
 }
 
 /// `floor`: height of the grid in perspective, mm.
-std::string grid(const BoundingBox& frame, double floor, const Projection& at, PathView view, const SvgLook& look) {
-    const double reach_x = look.width / at.scale() / 2, reach_y = look.height / at.scale() / 2;
+std::string grid(const BoundingBox& frame, double floor, const Projection& at, PathView view, const SvgStyle& style) {
+    const double reach_x = style.width / at.scale() / 2, reach_y = style.height / at.scale() / 2;
     const double step = nice_step(std::max(frame.high[0] - frame.low[0], frame.high[1] - frame.low[1]), 6);
     const bool plan = view == PathView::plan;
     Xyz low = frame.low, high = frame.high;
@@ -95,8 +95,8 @@ std::string grid(const BoundingBox& frame, double floor, const Projection& at, P
             out += line_through({at(from), at(to)}, "grid");
             if (!plan) continue;
             const Flat label = at(from);
-            if (axis == 0 ? label.x > look.width - 60 : label.y < 30) continue;  // position of the axis name
-            out += axis == 0 ? svg_text(label.x, look.height - 6.0, "middle", number(k * step))
+            if (axis == 0 ? label.x > style.width - 60 : label.y < 30) continue;  // position of the axis name
+            out += axis == 0 ? svg_text(label.x, style.height - 6.0, "middle", number(k * step))
                              : svg_text(6, label.y - 3, "start", number(k * step));
         }
     }
@@ -205,15 +205,15 @@ std::string shaded_line(const ReportData& data, const Projection& at, const SvgS
     return out + "</g>\n";
 }
 
-std::string shade_scale(const SvgShade& shade, const SvgLook& look) {
+std::string shade_scale(const SvgShade& shade, const SvgStyle& style) {
     constexpr double step = 7, y = 6, high = 9;
-    const double left = look.width - 12 - step * shade_steps;
+    const double left = style.width - 12 - step * shade_steps;
     std::string out;
     for (int i = 0; i < shade_steps; ++i)
         out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
                            coordinate(left + step * i), y, step + 0.3, high, shade_colour(i));
     return out + svg_text(left - 5, y + high, "end", "0") +
-           svg_text(look.width - 12.0, y + high + 13, "end", number(shade.max_value) + " " + shade.unit);
+           svg_text(style.width - 12.0, y + high + 13, "end", number(shade.max_value) + " " + shade.unit);
 }
 
 std::string planned_lines(const ReportData& data, const Projection& at) {
@@ -256,18 +256,19 @@ std::string marks(const ReportData& data, const Projection& at) {
 
 }  // namespace
 
-std::string svg_path(const ReportData& data, PathView view, const SvgLook& look, const SvgShade& shade) {
+std::string svg_path(const ReportData& data, PathView view, const SvgStyle& style, const SvgShade& shade) {
     const BoundingBox frame = frame_of(data);
-    const Projection at(frame, view, look);
+    const Projection at(frame, view, style);
     const bool plan = view == PathView::plan;
-    std::string out = svg_head(look, plan ? "The path from above: X to the right, Y up" : "The path in perspective");
-    out += grid(frame, extent_of_path(data).low[2], at, view, look);
+    std::string out = svg_head(style, plan ? "The path from above: X to the right, Y up" : "The path in perspective");
+    out += grid(frame, extent_of_path(data).low[2], at, view, style);
     out += travel_box(extent_of_travel(data), at, view);
     const bool shaded = !shade.values.empty() && shade.values.size() == data.driven.size() && shade.max_value > 0;
     out += planned_lines(data, at) +
-           (shaded ? shaded_line(data, at, shade) + shade_scale(shade, look) : driven_line(data, at)) + marks(data, at);
+           (shaded ? shaded_line(data, at, shade) + shade_scale(shade, style) : driven_line(data, at)) +
+           marks(data, at);
     if (plan) {
-        out += svg_text(look.width - 8.0, look.height - 6.0, "end", "X, mm") + svg_text(6, 14, "start", "Y, mm");
+        out += svg_text(style.width - 8.0, style.height - 6.0, "end", "X, mm") + svg_text(6, 14, "start", "Y, mm");
     }
     return out + "</svg>\n";
 }

@@ -32,7 +32,7 @@ struct Span {
 
 class Scatter {
   public:
-    Scatter(const SvgScatter& scatter, const SvgLook& look) : scatter_(scatter), look_(look) {
+    Scatter(const SvgScatter& scatter, const SvgStyle& style) : scatter_(scatter), style_(style) {
         for (const SvgDots& series : scatter.series)
             for (const SvgDot& dot : series.dots) x_.add(dot.x), y_.add(dot.y);
         if (named())
@@ -45,26 +45,27 @@ class Scatter {
     }
 
     std::string draw() const {
-        std::string out = svg_head(look_, scatter_.title + " over " + scatter_.x_name) + grid();
+        std::string out = svg_head(style_, scatter_.title + " over " + scatter_.x_name) + grid();
         for (const SvgDots& series : scatter_.series) out += line(series);
         for (const SvgDots& series : scatter_.series) out += dots(series);
         out +=
             fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", scatter_left, escaped(scatter_.title));
         return out + names() +
-               svg_text((scatter_left + look_.width - scatter_right) / 2, look_.height - 5, "middle", scatter_.x_name) +
+               svg_text((scatter_left + style_.width - scatter_right) / 2, style_.height - 5, "middle",
+                        scatter_.x_name) +
                "</svg>\n";
     }
 
   private:
     bool named() const { return !scatter_.x_names.empty(); }
     double x(double value) const {
-        return scatter_left + (value - x_.low) / (x_.high - x_.low) * (look_.width - scatter_left - scatter_right);
+        return scatter_left + (value - x_.low) / (x_.high - x_.low) * (style_.width - scatter_left - scatter_right);
     }
     double y(double value) const {
         return !std::isfinite(value)
-                   ? look_.height - scatter_bottom - 6
-                   : look_.height - scatter_bottom -
-                         (value - y_.low) / (y_.high - y_.low) * (look_.height - scatter_top - scatter_bottom);
+                   ? style_.height - scatter_bottom - 6
+                   : style_.height - scatter_bottom -
+                         (value - y_.low) / (y_.high - y_.low) * (style_.height - scatter_top - scatter_bottom);
     }
 
     static std::string straight(double x1, double y1, double x2, double y2) {
@@ -75,21 +76,21 @@ class Scatter {
     std::string grid() const {
         std::string out;
         const double step = nice_step(
-            y_.high - y_.low, std::max(2, static_cast<int>((look_.height - scatter_top - scatter_bottom) / 26)));
+            y_.high - y_.low, std::max(2, static_cast<int>((style_.height - scatter_top - scatter_bottom) / 26)));
         for (const double value : marks(y_, step))
-            out += straight(scatter_left, y(value), look_.width - scatter_right, y(value)) +
+            out += straight(scatter_left, y(value), style_.width - scatter_right, y(value)) +
                    svg_text(scatter_left - 6, y(value) + 4, "end", number(value));
-        const double below = look_.height - scatter_bottom + 15;
+        const double below = style_.height - scatter_bottom + 15;
         if (named()) {
             const double each =
-                (look_.width - scatter_left - scatter_right) / static_cast<double>(scatter_.x_names.size());
+                (style_.width - scatter_left - scatter_right) / static_cast<double>(scatter_.x_names.size());
             for (std::size_t i = 0; i < scatter_.x_names.size(); ++i)
                 out += svg_text(x(static_cast<double>(i)), below, "middle", fitted(scatter_.x_names[i], each));
             return out;
         }
-        const double across = nice_step(x_.high - x_.low, std::max(2, static_cast<int>(look_.width / 80)));
+        const double across = nice_step(x_.high - x_.low, std::max(2, static_cast<int>(style_.width / 80)));
         for (const double value : marks(x_, across))
-            out += straight(x(value), scatter_top, x(value), look_.height - scatter_bottom) +
+            out += straight(x(value), scatter_top, x(value), style_.height - scatter_bottom) +
                    svg_text(x(value), below, "middle", number(value));
         return out;
     }
@@ -118,7 +119,7 @@ class Scatter {
         std::string out, points;
         const auto end_piece = [&] {
             if (points.find(' ') != points.rfind(' '))
-                out += fmt::format("<polyline class=\"line {}\" points=\"{}\"/>\n", escaped(series.look),
+                out += fmt::format("<polyline class=\"line {}\" points=\"{}\"/>\n", escaped(series.style),
                                    points.substr(0, points.size() - 1));
             points.clear();
         };
@@ -140,28 +141,28 @@ class Scatter {
             const std::string at = coordinate(x(dot.x)), up = coordinate(y(dot.y));
             out += dot.bad ? fmt::format(
                                  "<path class=\"line {}\" style=\"stroke-width:2\" d=\"M{} {}m-4-4l8 8m-8 0l8-8\"/>\n",
-                                 escaped(series.look), at, up)
+                                 escaped(series.style), at, up)
                            : fmt::format("<circle class=\"line {}\" fill=\"#fff\" cx=\"{}\" cy=\"{}\" r=\"3\"/>\n",
-                                         escaped(series.look), at, up);
+                                         escaped(series.style), at, up);
         }
         return out;
     }
 
     std::string names() const {
         SvgChart chart;
-        for (const SvgDots& series : scatter_.series) chart.series.push_back({series.name, series.look, {}, {}});
-        return series_names(chart, look_.width - scatter_right, 16);
+        for (const SvgDots& series : scatter_.series) chart.series.push_back({series.name, series.style, {}, {}});
+        return series_names(chart, style_.width - scatter_right, 16);
     }
 
     const SvgScatter& scatter_;
-    const SvgLook look_;
+    const SvgStyle style_;
     Span x_, y_;
 };
 
 }  // namespace
 
-std::string svg_scatter(const SvgScatter& scatter, const SvgLook& look) {
-    return Scatter(scatter, look).draw();
+std::string svg_scatter(const SvgScatter& scatter, const SvgStyle& style) {
+    return Scatter(scatter, style).draw();
 }
 
 }  // namespace motionrack::trace

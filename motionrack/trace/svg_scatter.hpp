@@ -18,8 +18,8 @@ struct SvgDot {
 };
 
 struct SvgDots {
-    std::string name;  ///< empty: not labelled
-    std::string look;  ///< as in SvgSeries
+    std::string name;   ///< empty: not labelled
+    std::string style;  ///< as in SvgSeries
     std::vector<SvgDot> dots;
     bool joined = false;  ///< joined by lines in the order of x, up to bad dots
 };
@@ -31,7 +31,7 @@ struct SvgScatter {
 };
 
 /// Draws dots with a non-finite y at the bottom. Draws at most `max_dots` per series.
-std::string svg_scatter(const SvgScatter& scatter, const SvgLook& look = {});
+std::string svg_scatter(const SvgScatter& scatter, const SvgStyle& style = {});
 inline constexpr std::size_t max_dots = 3000;
 
 struct SvgSpot {
@@ -45,6 +45,6 @@ struct SvgMap {
 };
 
 /// Draws at most `max_dots` spots if they are not cells.
-std::string svg_map(const SvgMap& map, const SvgLook& look = {});
+std::string svg_map(const SvgMap& map, const SvgStyle& style = {});
 
 }  // namespace motionrack::trace

@@ -50,24 +50,24 @@ std::vector<double> spread(std::vector<double> at, double left, double right) {
 }  // namespace
 
 std::string svg_timeline(const std::string& title, std::span<const SvgChart> charts, std::span<const SvgSpan> spans,
-                         const SvgLook& look) {
+                         const SvgStyle& style) {
     const Stretch stretch = stretch_of(charts);
     std::size_t max_length = 0;
     for (const SvgSpan& span : spans) max_length = std::max(max_length, span.name.size());
     const double names = spans.empty() ? 0 : band + leader + letter_width * static_cast<double>(max_length) + 6;
-    const double each = (look.height - heading - names) / std::max<double>(1, static_cast<double>(charts.size()));
-    std::string out = svg_head(look, title);
+    const double each = (style.height - heading - names) / std::max<double>(1, static_cast<double>(charts.size()));
+    std::string out = svg_head(style, title);
     out += fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", chart_left, escaped(title));
-    out += svg_text(look.width - chart_right, 15, "end", "time in s");
+    out += svg_text(style.width - chart_right, 15, "end", "time in s");
     for (std::size_t i = 0; i < charts.size(); ++i) {
         const double y = heading + each * static_cast<double>(i);
-        out += fmt::format("<svg x=\"0\" y=\"{}\" width=\"{}\" height=\"{}\">\n", coordinate(y), look.width,
+        out += fmt::format("<svg x=\"0\" y=\"{}\" width=\"{}\" height=\"{}\">\n", coordinate(y), style.width,
                            coordinate(each));
         out +=
-            svg_text(chart_left, 16, "start", charts[i].title) + series_names(charts[i], look.width - chart_right, 16);
-        out += svg_chart(charts[i], {look.width, static_cast<int>(each), false}) + "</svg>\n";
+            svg_text(chart_left, 16, "start", charts[i].title) + series_names(charts[i], style.width - chart_right, 16);
+        out += svg_chart(charts[i], {style.width, static_cast<int>(each), false}) + "</svg>\n";
     }
-    const double left = chart_left, right = look.width - chart_right, top = look.height - names;
+    const double left = chart_left, right = style.width - chart_right, top = style.height - names;
     const auto x = [&](double t) {
         return left + (std::clamp(t, stretch.begin, stretch.end) - stretch.begin) / (stretch.end - stretch.begin) *
                           (right - left);

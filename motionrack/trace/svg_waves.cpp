@@ -64,11 +64,11 @@ std::string unit_of(double span, double& factor) {
 }  // namespace
 
 std::string svg_waves(const std::string& title, const std::vector<SvgWave>& waves, const std::vector<SvgMark>& marks,
-                      double from_s, double to_s, const SvgLook& look) {
+                      double from_s, double to_s, const SvgStyle& style) {
     const double bottom = waves_heading + each * static_cast<double>(waves.size());
-    SvgLook own = look;
+    SvgStyle own = style;
     own.height = static_cast<int>(bottom + foot);
-    const Scale scale{from_s, to_s, look.width - waves_left - waves_right};
+    const Scale scale{from_s, to_s, style.width - waves_left - waves_right};
     std::string out = svg_head(own, title);
     out += fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", coordinate(waves_left), escaped(title));
     double factor = 1;

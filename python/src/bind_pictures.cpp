@@ -23,10 +23,10 @@ std::string timeline(const std::string& title, const Doubles& seconds, const std
     std::vector<trace::SvgChart> drawn;
     for (const auto& [name, lines] : charts) {
         trace::SvgChart& chart = drawn.emplace_back(trace::SvgChart{name, {}, {}});
-        for (const auto& [line, look, values] : lines) {
+        for (const auto& [line, style, values] : lines) {
             if (values.size() != seconds.size())
                 refuse("Every line of a picture must have one value per instant. Nothing was drawn.");
-            chart.series.push_back({line, look, time, {values.data(), static_cast<std::size_t>(values.size())}});
+            chart.series.push_back({line, style, time, {values.data(), static_cast<std::size_t>(values.size())}});
         }
     }
     std::vector<trace::SvgSpan> bands;

@@ -118,7 +118,7 @@ void LiveCard::claim(const std::string& driver) {
 bool LiveCard::RealTimeHost::wait(Duration timeout) {
     const Instant end = later(now(), timeout);
     while (true) {
-        signals_.look(card_);
+        signals_.poll(card_);
         const Duration left = end - now();
         if (card_.device_->port().wait(std::clamp(left, Duration{0}, listen_every))) return true;
         if (left <= listen_every || stop_requested()) return false;
@@ -128,7 +128,7 @@ bool LiveCard::RealTimeHost::wait(Duration timeout) {
 void LiveCard::RealTimeHost::pass(Duration duration) {
     const Instant end = later(now(), duration);
     do {
-        signals_.look(card_);
+        signals_.poll(card_);
         card_.device_->port().pass(std::clamp(end - now(), Duration{0}, listen_every));
     } while (now() < end);
 }

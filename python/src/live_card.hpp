@@ -75,7 +75,7 @@ class LiveCard final : public Host {
 
       private:
         LiveCard& card_;
-        SignalLook signals_;
+        SignalPoll signals_;
     };
     [[noreturn]] void refuse_device(const char* who) const;
     LiveDevice& open_device() const;

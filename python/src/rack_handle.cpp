@@ -88,7 +88,7 @@ void RackHandle::service_run() {
     if (sampler_ && bell_->take_break() != never) sampler_->take(now());
     if (recorder_) {
         if (now() >= next_register_look_) {
-            recorder_->look();
+            recorder_->poll();
             const Duration period = recorder_->register_period();
             next_register_look_ = (now() / period + 1) * period;
         }

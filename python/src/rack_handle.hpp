@@ -101,7 +101,7 @@ class RackHandle final : public Host {
 
     // ---- observers
     /// Called between runs, at least every 50 ms of simulated time, and at each break.
-    void on_look(std::function<void()> call) { look_ = std::move(call); }
+    void on_poll(std::function<void()> call) { look_ = std::move(call); }
     /// Called about every 50 ms of simulated time of a program; empty: none.
     void on_progress(std::function<void(const rack::JobProgress&)> call) { progress_ = std::move(call); }
     /// Runs between two runs of the kernel: injects due faults, takes samples, drains recordings, polls Python. While a

@@ -63,7 +63,7 @@ rack::Card& card_of_type(RackHandle& world, const std::string& name, std::string
     return card;
 }
 
-void SignalLook::look(Host& host) {
+void SignalPoll::poll(Host& host) {
     const auto present = std::chrono::steady_clock::now();  // limits the checks in a run of many short slices
     if (present - last_ < std::chrono::milliseconds(20)) return;
     last_ = present;
@@ -72,7 +72,7 @@ void SignalLook::look(Host& host) {
 }
 
 void poll_python(RackHandle& world) {
-    world.on_look([&world, signals = SignalLook()]() mutable { signals.look(world); });
+    world.on_poll([&world, signals = SignalPoll()]() mutable { signals.poll(world); });
 }
 
 void abort_run(Host& host, py::error_already_set error) {

@@ -47,10 +47,10 @@ auto inspect_rack(RackHandle& world, Call call) {
 }
 
 /// Periodically checks Python for signals (Ctrl-C); called without the GIL.
-class SignalLook {
+class SignalPoll {
   public:
     /// Stops the host on a signal; its exception propagates after the run.
-    void look(Host& host);
+    void poll(Host& host);
 
   private:
     std::chrono::steady_clock::time_point last_{};

@@ -67,7 +67,7 @@ Sight RackWatch::sight() {
     return out;
 }
 
-void RackWatch::look() {
+void RackWatch::poll() {
     Sight now = sight();
     now.sequence = ++sequence_;
     now.state = operate::MachineState::homing;  // any motion is allowed

@@ -19,7 +19,7 @@ class RackWatch {
     explicit RackWatch(rack::Rack& rack, Invariants::Report report = fail_test)
         : RackWatch(rack, milliseconds(50), std::move(report)) {}
     /// Checks a rack driven by a program: motion is allowed at any time until a stop.
-    void look();
+    void poll();
     Invariants& invariants() { return invariants_; }
 
   protected:

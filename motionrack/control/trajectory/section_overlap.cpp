@@ -18,7 +18,7 @@ constexpr int overlap_halvings = 14;
 constexpr double shorter_overlap = 0.96;
 constexpr int overlap_tries = 12;
 /// Number of samples of the path acceleration while both motions run.
-constexpr int looks = 4;
+constexpr int overlap_samples = 4;
 /// Relative excess over a limit for which a card that draws the path as lines compensates.
 constexpr double along_reserve = 0.02;
 
@@ -162,8 +162,8 @@ bool is_within(const SectionRamp& in, const SectionRamp& out, double seconds, co
         if (!keeps_along(moment.in[0], a, moment.out[0], b, limits) ||
             !keeps_along(moment.in[1], a, moment.out[1], b, limits))
             return false;
-        for (int i = 1; i < looks; ++i) {
-            const double time = step * i / looks;
+        for (int i = 1; i < overlap_samples; ++i) {
+            const double time = step * i / overlap_samples;
             if (!keeps_along(ending.at(time), a, beginning.at(time), b, limits)) return false;
         }
         left -= step;

@@ -19,7 +19,7 @@ class ScriptedSubscriber final : public Subscriber {
             if (use) use(sample, verdict, now);
         }
         waiting.clear();
-        judge_.look(now);
+        judge_.poll(now);
         return now;
     }
     bool wait(Duration) override { return !waiting.empty(); }
@@ -59,7 +59,7 @@ class CountingPublisher final : public Publisher {
         ++sent_;
         return true;
     }
-    void look() override {}
+    void poll() override {}
     bool next_event(BusEvent&) override { return false; }
     std::vector<std::uint32_t> numbers;
 };

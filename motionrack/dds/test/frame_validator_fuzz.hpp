@@ -85,7 +85,7 @@ class Run {
     void step() {
         now_ += Duration{feed_.word() * (feed_.below(8) == 0 ? 40'000 : 40)};
         if (feed_.below(4) == 0)
-            judge_.look(now_);
+            judge_.poll(now_);
         else
             take(next_sample());
         if (judge_.joined())

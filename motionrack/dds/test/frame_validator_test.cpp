@@ -113,11 +113,11 @@ TEST_F(FrameValidatorTest, FollowsACardThatWasReset) {
 
 TEST_F(FrameValidatorTest, ReportsStaleFramesOnceAfterTwoPeriods) {
     hear(10);
-    judge.look(now + 2 * period);
+    judge.poll(now + 2 * period);
     EXPECT_FALSE(judge.stale());
-    judge.look(now + 2 * period + Duration{1});
+    judge.poll(now + 2 * period + Duration{1});
     EXPECT_TRUE(judge.stale());
-    judge.look(now + 3 * period);
+    judge.poll(now + 3 * period);
     EXPECT_THAT(reported(EventKind::stale), HasSubstr("positions of frame 10 are stale"));
     now += whole_seconds(3);
     EXPECT_EQ(hear(10 + 15'001), Validation::used);

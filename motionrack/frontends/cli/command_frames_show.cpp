@@ -37,7 +37,7 @@ class Screen {
           begun_(dds::monotonic_now()) {}
 
     /// Shows the state at simulated time `now` if an update is due.
-    void look(Instant now) {
+    void refresh(Instant now) {
         if (now < next_) return;
         next_ = now + from_seconds(options_.every);
         if (options_.real_time)
@@ -71,7 +71,7 @@ struct Show {
     void between_runs() {
         faults.apply_due();
         if (recorder) recorder->drain();
-        screen.look(rack.kernel().now());
+        screen.refresh(rack.kernel().now());
     }
 };
 

@@ -74,10 +74,10 @@ Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimit
         ++out.stops;
         out.bound += control::min_duration_s(stretch.curve, limits);
         control::SectionSampler view(stretch);
-        const auto looks = static_cast<std::int64_t>(stretch.seconds / look_every_s) + 20;
-        for (std::int64_t i = 0; i <= looks; ++i) {
+        const auto samples = static_cast<std::int64_t>(stretch.seconds / look_every_s) + 20;
+        for (std::int64_t i = 0; i <= samples; ++i) {
             const control::TrajectoryPoint state =
-                view.at(stretch.seconds * static_cast<double>(i) / static_cast<double>(looks));
+                view.at(stretch.seconds * static_cast<double>(i) / static_cast<double>(samples));
             for (std::size_t k = 0; k < out.axes.size(); ++k) {
                 AxisPeaks& axis = out.axes[k];
                 axis = {std::max(axis.velocity, std::fabs(state.velocity[k])),

@@ -11,7 +11,7 @@ namespace motionrack::mcx314lib {
 namespace {
 
 constexpr const char* variable = "MOTIONRACK_RACK";
-constexpr Duration look_every = milliseconds(1);
+constexpr Duration poll_period = milliseconds(1);
 constexpr Duration max_at_once = nanoseconds(static_cast<std::int64_t>(VirtualRack::max_ns));
 
 }  // namespace
@@ -152,7 +152,8 @@ Result<void> ChipTable::pass(OpenChip& chip, Duration duration) {
         return {};
     };
     const Instant end = later(chip.now(), duration);
-    while (step_all_beside(chip) && chip.now() < end) MOTIONRACK_CHECK(advance(std::min(look_every, end - chip.now())));
+    while (step_all_beside(chip) && chip.now() < end)
+        MOTIONRACK_CHECK(advance(std::min(poll_period, end - chip.now())));
     while (end - chip.now() >= nanoseconds(1)) MOTIONRACK_CHECK(advance(std::min(max_at_once, end - chip.now())));
     return {};
 }

@@ -265,7 +265,7 @@ class GrblPorts::Inside {
         });
     }
     void look_for_clients() {
-        const PseudoTerminal::ClientActivity seen = terminal_->look();
+        const PseudoTerminal::ClientActivity seen = terminal_->poll_client();
         if (seen.left) {
             name_terminal_sender(false);
             terminal_port_->left();

@@ -136,7 +136,7 @@ void PseudoTerminal::forget_unread() {
     ::tcflush(slave_.number(), TCIFLUSH);
 }
 
-PseudoTerminal::ClientActivity PseudoTerminal::look() {
+PseudoTerminal::ClientActivity PseudoTerminal::poll_client() {
     ClientActivity out;
     alignas(inotify_event) std::array<char, 4096> events{};
     for (ssize_t got = 0; (got = ::read(watch_.number(), events.data(), events.size())) > 0;) {

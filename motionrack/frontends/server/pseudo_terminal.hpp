@@ -40,7 +40,7 @@ class PseudoTerminal {
         bool left = false;  ///< the last client closed it
         bool came = false;  ///< a client opened it as the only one, at or before that time
     };
-    ClientActivity look();
+    ClientActivity poll_client();
     int clients() const { return clients_; }
     /// Descriptor that is readable when a look is needed.
     int watch() const { return watch_.number(); }

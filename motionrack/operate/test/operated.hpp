@@ -51,7 +51,7 @@ class Operated {
   public:
     explicit Operated(const rack::RackConfig& config, MachineSettings settings = {}) {
         settings.pace = [this](Instant now) { return give(to_seconds(now)), true; };
-        settings.on_status = [this](const Status& status) { look(status); };
+        settings.on_status = [this](const Status& status) { observe(status); };
         settings.on_event = [this](const control::gcode::CanonCall& step) { events.push_back(step.kind); };
         auto made = Machine::make(config, std::move(settings));
         EXPECT_TRUE(made) << made.error().message;
@@ -92,7 +92,7 @@ class Operated {
             order.give(*machine);
         }
     }
-    void look(const Status& status) {
+    void observe(const Status& status) {
         if (see_) see_(status);
         if (states.empty() || states.back() != name_of(status.state)) states.emplace_back(name_of(status.state));
         for (const AxisStatus& axis : status.axes) {

@@ -39,10 +39,10 @@ Speeds stopped_at(double stop_s, const std::string& profile, Result<void> (*stop
 
 void expect_soon(const Speeds& speeds, double stop_s) {
     SCOPED_TRACE(testing::Message() << "at " << stop_s << " s");
-    constexpr double begins_within = 0.05, jerk_time = 0.05, look = 0.01;
+    constexpr double begins_within = 0.05, jerk_time = 0.05, sample_s = 0.01;
     double peak_speed = 0;  // before it decelerates
     for (std::size_t i = 0; i < speeds.at_s.size(); ++i) {
-        if (speeds.at_s[i] <= stop_s + begins_within + jerk_time + look)
+        if (speeds.at_s[i] <= stop_s + begins_within + jerk_time + sample_s)
             peak_speed = std::max(peak_speed, speeds.mm_s[i]);
         else
             EXPECT_LE(speeds.mm_s[i], peak_speed * 1.02 + 0.8) << speeds.at_s[i] << " s";  // rounding to pulses

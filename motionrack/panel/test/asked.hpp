@@ -63,9 +63,9 @@ class Asked {
     }
     /// Sends a request at `seconds`; virtual time waits for answers from the worker.
     void at(double seconds, const Caller& caller, const std::string& name, json fields = json::object(),
-            std::function<void(const Answer&)> look = {}) {
-        at(seconds, [this, caller, name, fields = std::move(fields), look = std::move(look)] {
-            ask(caller, name, fields, look);
+            std::function<void(const Answer&)> check = {}) {
+        at(seconds, [this, caller, name, fields = std::move(fields), check = std::move(check)] {
+            ask(caller, name, fields, check);
         });
     }
     void at(double seconds, std::function<void()> work) {
@@ -79,10 +79,10 @@ class Asked {
            [name](const Answer& answer) { EXPECT_EQ(answer.status, 200) << name << ": " << answer.body.dump(); });
     }
     void ask(const Caller& caller, const std::string& name, const json& fields,
-             std::function<void(const Answer&)> look) {
+             std::function<void(const Answer&)> check) {
         ++open_;
-        panel->ask(caller, name, fields, [this, look = std::move(look)](const Answer& answer) {
-            if (look) look(answer);
+        panel->ask(caller, name, fields, [this, check = std::move(check)](const Answer& answer) {
+            if (check) check(answer);
             --open_;
         });
     }

@@ -16,12 +16,12 @@ class StopOnThePage : public testing::TestWithParam<bool> {
     StopOnThePage() : a(demonstration()) {
         a.good(0.1, "take_control");
         a.good(0.2, "mark", {{"card", "scan"}, {"job", slow_job}});
-        look(1.0, on);
+        observe(1.0, on);
         if (by_button())
             a.good(1.0, "set_estop", {{"pressed", true}});
         else
             a.at(1.0, [this] { a.panel->stop(nobody); });
-        look(1.05, off);
+        observe(1.05, off);
         if (by_button()) a.good(1.2, "set_estop", {{"pressed", false}});
     }
     bool by_button() const { return GetParam(); }
@@ -29,7 +29,7 @@ class StopOnThePage : public testing::TestWithParam<bool> {
         double marked_mm = 0, belt_mm_s = 0, shown_mm_s = 0, mask_m_s = 0;
         bool laser = false, belt_waits = false, mask_waits = false;
     };
-    void look(double seconds, Seen& seen) {
+    void observe(double seconds, Seen& seen) {
         a.at(seconds, [this, &seen] {
             rack::Rack& rack = a.machine->rack();
             const Instant now = a.machine->now();
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(By, StopOnThePage, testing::Bool(),
 
 TEST_P(StopOnThePage, PutsOutTheLaserAndStopsBeltsAndStages) {
     Seen later;
-    look(3, later);
+    observe(3, later);
     a.run(3.1);
     EXPECT_GT(on.marked_mm, 5);
     EXPECT_EQ(on.belt_mm_s, 50);
@@ -83,12 +83,12 @@ TEST_P(StopOnThePage, RefusesToMarkAndToStartPartsBeforeAReset) {
     a.at(1.7, anna, "inject_fault", {{"target", "line"}, {"fault", "drive.speed=50"}}, refused);
     a.good(1.8, "reset");
     Seen still, started;
-    look(2.0, still);
+    observe(2.0, still);
     a.good(2.1, "start_part", {{"part", "line"}});
     a.good(2.1, "start_part", {{"part", "mask_x"}});
     a.at(2.1, anna, "start_part", {{"part", "nobody"}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 400); });
     a.good(2.2, "mark", {{"card", "scan"}, {"job", slow_job}});
-    look(3, started);
+    observe(3, started);
     a.run(3.1);
     EXPECT_EQ(still.belt_mm_s, 0) << "a reset moves nothing";
     EXPECT_LT(still.mask_m_s, 0.001);

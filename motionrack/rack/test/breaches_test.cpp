@@ -12,12 +12,12 @@ constexpr double start_hz = 1280, accel_hz = 640'000;  // 2 mm/s and 1,000 mm/s2
 
 /// Returns the largest step found in a motion whose pulses at `t` s are `place(t)`, and the number of steps.
 template <class Place>
-JumpWatch::Jump look(Place position, int& times, Duration period = milliseconds(1)) {
+JumpWatch::Jump sample_jump(Place position, int& times, Duration period = milliseconds(1)) {
     JumpWatch watch(start_hz, accel_hz, period);
     JumpWatch::Jump worst;
     times = 0;
     for (double t = 0; t < 0.4; t += to_seconds(period)) {
-        const JumpWatch::Jump jump = watch.look(static_cast<std::int64_t>(std::floor(position(t))));
+        const JumpWatch::Jump jump = watch.sample(static_cast<std::int64_t>(std::floor(position(t))));
         times += jump.first;
         if (jump.hz > worst.hz) worst = jump;
     }
@@ -30,16 +30,16 @@ TEST(JumpWatch, LetsRampsAndStartsPass) {
         const double v = start_hz / 2 + accel_hz * std::min(t, 0.1);
         return t < 0.1 ? t * (start_hz / 2 + v) / 2 : 0.1 * (start_hz / 2 + v) / 2 + (t - 0.1) * v;
     };
-    EXPECT_EQ(look(ramp, times).hz, 0);
+    EXPECT_EQ(sample_jump(ramp, times).hz, 0);
     EXPECT_EQ(times, 0);
-    EXPECT_EQ(look([](double t) { return t < 0.2 ? 0 : (t - 0.2) * start_hz; }, times).hz, 0) << "a start";
-    EXPECT_EQ(look([](double t) { return std::fabs(t - 0.2) * start_hz / 2; }, times).hz, 0) << "and a way back";
+    EXPECT_EQ(sample_jump([](double t) { return t < 0.2 ? 0 : (t - 0.2) * start_hz; }, times).hz, 0) << "a start";
+    EXPECT_EQ(sample_jump([](double t) { return std::fabs(t - 0.2) * start_hz / 2; }, times).hz, 0) << "and a way back";
 }
 
 TEST(JumpWatch, FindsAStopAtOnceWhateverThePeriod) {
     for (const Duration period : {microseconds(100), microseconds(500), milliseconds(1), milliseconds(2)}) {
         int times = 0;
-        const JumpWatch::Jump jump = look([](double t) { return std::min(t, 0.2) * 55'000; }, times, period);
+        const JumpWatch::Jump jump = sample_jump([](double t) { return std::min(t, 0.2) * 55'000; }, times, period);
         EXPECT_NEAR(jump.hz, 55'000, 4'500);
         EXPECT_EQ(times, 1);
     }
@@ -52,14 +52,15 @@ TEST(JumpWatch, FindsAStopOfASlowAxisAtEachInstantOfItsPeriod) {
         double found = 0;
         for (int k = 0; k < 400; ++k)
             found = std::max(
-                found, watch.look(static_cast<std::int64_t>(std::floor(std::min(k * 1e-3, 0.2 + phase) * from_hz))).hz);
+                found,
+                watch.sample(static_cast<std::int64_t>(std::floor(std::min(k * 1e-3, 0.2 + phase) * from_hz))).hz);
         EXPECT_GT(found, 0) << phase;
     }
 }
 
 TEST(JumpWatch, FindsNothingInLooksThatAreTooRare) {
     int times = 0;
-    EXPECT_EQ(look([](double t) { return std::min(t, 0.2) * 55'000; }, times, milliseconds(5)).hz, 0);
+    EXPECT_EQ(sample_jump([](double t) { return std::min(t, 0.2) * 55'000; }, times, milliseconds(5)).hz, 0);
 }
 
 TEST(Breach, IsKeptOnceAnAxisWithItsWorstAndToldInASentence) {

@@ -30,7 +30,7 @@ class OneCard {
         port().pass(milliseconds(200));
     }
     sim::VirtualPort& port() { return *rack_.cards()[0]->port(); }
-    std::int64_t look(const std::string& name) { return *rack_.cards()[0]->inspect(name); }
+    std::int64_t inspect(const std::string& name) { return *rack_.cards()[0]->inspect(name); }
     std::size_t conditions() { return rack_.kernel().conditions().size(); }
 
   private:
@@ -42,29 +42,29 @@ TEST(Mcx314CardSettings, TheVariantDecidesWhichCommandsThereAre) {
     original.command(mcx314::cmd::EM, 0x0000'0010);
     as.command(mcx314::cmd::EM, 0x0000'0010);
     EXPECT_EQ(original.conditions(), 1u);
-    EXPECT_EQ(original.look("x.EM6"), 0);
+    EXPECT_EQ(original.inspect("x.EM6"), 0);
     EXPECT_EQ(as.conditions(), 0u);
-    EXPECT_EQ(as.look("x.EM6"), 0x10);
+    EXPECT_EQ(as.inspect("x.EM6"), 0x10);
 }
 
 TEST(Mcx314CardSettings, TheOtherReadingsOfTheSourcesCanBeChosen) {
     OneCard usual(""), other("low_speed_drive = \"at SV\"\nsoftware_limits = \"at\"\nao_after_reset = 300\n");
-    EXPECT_EQ(usual.look("x.AO"), 8);
-    EXPECT_EQ(other.look("x.AO"), 300);
+    EXPECT_EQ(usual.inspect("x.AO"), 8);
+    EXPECT_EQ(other.inspect("x.AO"), 300);
     for (OneCard* card : {&usual, &other}) {
         card->command(mcx314::cmd::COMP_PLUS, 40);
         card->command(mcx314::cmd::NOP);
         card->port().write(mcx314::reg::WR2, 0x0001);  // + software limit
         card->slow_drive();
     }
-    EXPECT_EQ(usual.look("x.LP"), 41);
-    EXPECT_EQ(other.look("x.LP"), 40);
+    EXPECT_EQ(usual.inspect("x.LP"), 41);
+    EXPECT_EQ(other.inspect("x.LP"), 40);
     for (OneCard* card : {&usual, &other}) {
         card->command(mcx314::cmd::COMP_PLUS, 1'000'000);
         card->slow_drive();
     }
-    EXPECT_EQ(usual.look("x.CV"), 50);
-    EXPECT_EQ(other.look("x.CV"), 100);
+    EXPECT_EQ(usual.inspect("x.CV"), 50);
+    EXPECT_EQ(other.inspect("x.CV"), 100);
 }
 
 }  // namespace

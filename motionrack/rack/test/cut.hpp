@@ -43,7 +43,7 @@ using Orders = std::vector<Order>;
 inline Order bus(const char* card, int bits, std::uint32_t address, std::uint64_t value) {
     return {Order::write, card, {}, bits, address, static_cast<std::uint32_t>(value), 0};
 }
-inline Order look(const char* card, int bits, std::uint32_t address) {
+inline Order peek(const char* card, int bits, std::uint32_t address) {
     return {Order::read, card, {}, bits, address, 0, 0};
 }
 inline Order level(std::string wire, double value) {

@@ -108,11 +108,11 @@ Order order_of(const Op& op) {
         case Op::Kind::write:
             return bus("c1", 16, op.offset, op.value);
         case Op::Kind::read:
-            return look("c1", 16, op.offset);
+            return peek("c1", 16, op.offset);
         case Op::Kind::write_byte:
             return bus("c1", 8, op.offset, op.value);
         case Op::Kind::read_byte:
-            return look("c1", 8, op.offset);
+            return peek("c1", 8, op.offset);
         case Op::Kind::emergency:
             return level("c1.emgn", op.value);
         case Op::Kind::step:
@@ -203,7 +203,7 @@ Orders anything_to_pulse_chip(Random& random) {
             break;
         case 9:
         case 10:
-            out.push_back(look("c1", 16, 2 * static_cast<std::uint32_t>(below(random, 8))));
+            out.push_back(peek("c1", 16, 2 * static_cast<std::uint32_t>(below(random, 8))));
             break;
         case 11:
         case 12:

@@ -43,7 +43,7 @@ Orders databoard4002(Random& random) {
             break;
         }
         case 5:
-            out.push_back(look("d1", 8, static_cast<std::uint32_t>(below(random, 2))));
+            out.push_back(peek("d1", 8, static_cast<std::uint32_t>(below(random, 2))));
             break;
         case 6:
             out.push_back(bus("d1", 8, 5, random() & 0xFF));
@@ -60,7 +60,7 @@ Orders ioflex02(Random& random) {
     const auto bit = [&] { return static_cast<double>(below(random, 2)); };
     switch (below(random, 5)) {
         case 0:
-            return {look("p1", 16, 0x2300 + 2 * static_cast<std::uint32_t>(below(random, 40)))};
+            return {peek("p1", 16, 0x2300 + 2 * static_cast<std::uint32_t>(below(random, 40)))};
         case 1: {
             const auto place = 0x2300 + 2 * static_cast<std::uint32_t>(below(random, 40));
             return {bus("p1", 16, place, below(random, 16))};
@@ -78,7 +78,7 @@ Orders ioflex02(Random& random) {
 }
 
 Orders rtc5(Random& random) {
-    if (below(random, 3) == 0) return {look("s", 32, 4 * static_cast<std::uint32_t>(below(random, 16)))};
+    if (below(random, 3) == 0) return {peek("s", 32, 4 * static_cast<std::uint32_t>(below(random, 16)))};
     const char* const pin = std::array{"s.start_n", "s.mcbsp", "s.stop_n"}[below(random, 3)];
     return {level(pin, static_cast<double>(below(random, 2)))};
 }
@@ -125,11 +125,11 @@ Orders grating_bus(Random& random) {
         case 1:  // claims, releases, clears, sometimes resets
             return {bus(card, 16, 0, below(random, below(random, 4) == 0 ? 16 : 8))};
         case 2:
-            return {look(card, 16, 2 * static_cast<std::uint32_t>(below(random, 32)))};
+            return {peek(card, 16, 2 * static_cast<std::uint32_t>(below(random, 32)))};
         case 3:
-            return {look(card, 16, gb::counts_at + 2 * static_cast<std::uint32_t>(below(random, 6)))};
+            return {peek(card, 16, gb::counts_at + 2 * static_cast<std::uint32_t>(below(random, 6)))};
         case 4:
-            return {look("decoder", 16, gb::counts_at + 2 * static_cast<std::uint32_t>(below(random, 6)))};
+            return {peek("decoder", 16, gb::counts_at + 2 * static_cast<std::uint32_t>(below(random, 6)))};
         case 5:
         case 6:
             return {line_of_bus(random)};

@@ -71,7 +71,7 @@ inline Driven drive_with(const RackConfig& config, const std::string& program, c
     settings.on_slice = [&] {
         if (rack.kernel().now() >= ctrl_c) (*plan)->ask_stop();
         if (slice) slice(rack);
-        watch.look();
+        watch.poll();
     };
     Job job(rack, settings);
     test::PulseReferee referee(rack);

@@ -15,16 +15,16 @@ constexpr double jump_hz = 12, period_s = 1e-3;
 /// drawn by a card that receives the exact `velocity(t)` of its middle.
 double top_of_pieces(const std::function<double(double)>& velocity, double piece_s, double seconds) {
     PeakVelocity top(jump_hz, from_seconds(period_s));
-    double t = 0, next_look = period_s, place = 0, rate = 0;
+    double t = 0, next_poll = period_s, place = 0, rate = 0;
     double wanted = 0;
     while (t < seconds) {
         wanted += velocity(t + piece_s / 2) * piece_s;
         const double pulses = std::floor(wanted + 0.5) - place, before = rate;
         rate = pulses / piece_s;
         if (rate != before) top.changed(before, rate, from_seconds(t));
-        for (; next_look <= t + piece_s; next_look += period_s)
-            top.look(static_cast<std::int64_t>(std::floor(place + rate * (next_look - t))), rate,
-                     from_seconds(next_look));
+        for (; next_poll <= t + piece_s; next_poll += period_s)
+            top.sample(static_cast<std::int64_t>(std::floor(place + rate * (next_poll - t))), rate,
+                       from_seconds(next_poll));
         place += pulses;
         t += piece_s;
     }

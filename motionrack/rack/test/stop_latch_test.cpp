@@ -38,7 +38,7 @@ StoppedRun run_stopped(const std::string& rack, const std::string& program, cons
     auto job = RecordedJob::create(request, {});
     EXPECT_TRUE(job) << job.error().message;
     test::RackWatch watch((*job)->rack());
-    return {(*job)->run(nullptr, [&](const JobProgress&) { watch.look(); }), request.config};
+    return {(*job)->run(nullptr, [&](const JobProgress&) { watch.poll(); }), request.config};
 }
 
 void expect_stopped(const StoppedRun& ran, double x, const std::string& words) {

@@ -45,7 +45,7 @@ void EncoderPart::schedule() {
     kernel_.schedule(id_, state_.begun ? output_.next() : Instant{0});
 }
 
-void EncoderPart::look(Instant now) {
+void EncoderPart::update(Instant now) {
     state_.count = count_at(position_.count(now));
     position_.watch(slot_, position_of(state_.count) - 1, position_of(state_.count + 1));
     if (blind()) {
@@ -63,7 +63,7 @@ void EncoderPart::look(Instant now) {
 }
 
 void EncoderPart::look_again(Instant now) {
-    if (state_.begun) look(now);
+    if (state_.begun) update(now);
 }
 
 void EncoderPart::on_scheduled(Instant now) {
@@ -71,7 +71,7 @@ void EncoderPart::on_scheduled(Instant now) {
         state_.begun = 1;
         state_.count = count_at(position_.count(now));
         output_.begin(state_.count);
-        look(now);
+        update(now);
     }
     output_.act(now);
     schedule();

@@ -64,9 +64,9 @@ class EncoderPart : public sim::Device, private sim::PositionListener {
     sim::Kernel& kernel_;
 
   private:
-    void crossed(Instant now) override { look(now); }
+    void crossed(Instant now) override { update(now); }
     void rate_changed(double, double, Instant) override {}
-    void look(Instant now);
+    void update(Instant now);
     void schedule();
     std::int64_t position_of(std::int64_t n) const;
     std::int64_t count_at(std::int64_t position) const;

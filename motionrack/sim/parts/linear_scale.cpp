@@ -147,7 +147,7 @@ void LinearScale::watch(int slot, std::int64_t below, std::int64_t above) {
 }
 
 /// Notifies listeners of left ranges and updates subscribed wires.
-void LinearScale::look(Instant now) {
+void LinearScale::update(Instant now) {
     looking_ = true;
     if (live()) show(now);
     listeners_.notify_crossed(state_.watches, count(now), now);
@@ -174,7 +174,7 @@ void LinearScale::aim(Instant now) {
 }
 
 void LinearScale::on_scheduled(Instant now) {
-    look(now);
+    update(now);
 }
 
 void LinearScale::rate_changed(double before, double rate, Instant now) {
@@ -193,7 +193,7 @@ void LinearScale::rate_changed(double before, double rate, Instant now) {
     }
     const double factor = state_.direction * counts_per_place();
     listeners_.notify_rate(was ? 0 : before * factor, fast ? 0 : rate * factor, now);
-    if (was != fast) look(now);
+    if (was != fast) update(now);
 }
 
 void LinearScale::report(AxisCondition code, std::int64_t a, std::int64_t b) {
@@ -270,7 +270,7 @@ bool LinearScale::fault(std::string_view name, double value, Instant now) {
     } else {
         return false;
     }
-    look(now);
+    update(now);
     return true;
 }
 

@@ -112,7 +112,7 @@ class LinearScale final : public sim::DeferringDevice, public sim::PositionFunct
         std::int32_t reserved = 0;
     };
 
-    void crossed(Instant now) override { look(now); }
+    void crossed(Instant now) override { update(now); }
     void rate_changed(double before, double rate, Instant now) override;
 
     double counts_per_place() const { return static_cast<double>(state_.num) / static_cast<double>(state_.den); }
@@ -124,7 +124,7 @@ class LinearScale final : public sim::DeferringDevice, public sim::PositionFunct
     bool live() const { return state_.wanted != 0 || edges_ != nullptr; }
     void set_ratio(double ppm);
     void report(AxisCondition code, std::int64_t a, std::int64_t b);
-    void look(Instant now);
+    void update(Instant now);
     void aim(Instant now);
     void show(Instant now);
     void put_out(Instant now);

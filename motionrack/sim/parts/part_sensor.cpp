@@ -27,7 +27,7 @@ std::int64_t PartSensor::parts(Instant now) const {
     return std::max<std::int64_t>(number(position_.count(now)) + 1, 0);
 }
 
-void PartSensor::look(Instant now) {
+void PartSensor::update(Instant now) {
     const std::int64_t position = position_.count(now), n = number(position);
     const std::int64_t edge = settings_.first + n * settings_.every, end = edge + settings_.length;
     const bool there = n >= 0 && position < end;

@@ -26,12 +26,12 @@ class PartSensor final : public sim::Device, private sim::PositionListener {
 
     /// Number of parts whose leading edge has reached the sensor.
     std::int64_t parts(Instant now) const;
-    void on_scheduled(Instant now) override { look(now); }
+    void on_scheduled(Instant now) override { update(now); }
 
   private:
-    void crossed(Instant now) override { look(now); }
+    void crossed(Instant now) override { update(now); }
     void rate_changed(double, double, Instant) override {}
-    void look(Instant now);
+    void update(Instant now);
     std::int64_t number(std::int64_t position) const;
 
     sim::Kernel& kernel_;

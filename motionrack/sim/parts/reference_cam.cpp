@@ -22,10 +22,10 @@ bool ReferenceCam::active(Instant t) const {
 }
 
 void ReferenceCam::on_scheduled(Instant now) {
-    look(now);
+    update(now);
 }
 
-void ReferenceCam::look(Instant now) {
+void ReferenceCam::update(Instant now) {
     kernel_.set_wire(wire_, active(now) ? active_level_ : 1 - active_level_);
     const sim::Range side = interval_.side_of(position_.count(now));
     position_.watch(slot_, side.below, side.above);

@@ -24,9 +24,9 @@ class ReferenceCam final : public sim::Device, private sim::PositionListener {
     void on_scheduled(Instant now) override;
 
   private:
-    void crossed(Instant now) override { look(now); }
+    void crossed(Instant now) override { update(now); }
     void rate_changed(double, double, Instant) override {}
-    void look(Instant now);
+    void update(Instant now);
 
     sim::Kernel& kernel_;
     sim::PositionFunction& position_;

@@ -21,10 +21,10 @@ bool TouchProbe::touches(Instant t) const {
 }
 
 void TouchProbe::on_scheduled(Instant now) {
-    look(now);
+    update(now);
 }
 
-void TouchProbe::look(Instant now) {
+void TouchProbe::update(Instant now) {
     kernel_.set_wire(wire_, touches(now));
     for (Side& side : sides_) {
         const sim::Range around = side.interval.side_of(side.position.count(now));

@@ -34,7 +34,7 @@ class TouchProbe final : public sim::Device {
     struct Side final : sim::PositionListener {
         Side(TouchProbe& its, sim::PositionFunction& motion, sim::Interval of_block)
             : probe(its), position(motion), interval(of_block), slot(motion.add_listener(*this)) {}
-        void crossed(Instant now) override { probe.look(now); }
+        void crossed(Instant now) override { probe.update(now); }
         void rate_changed(double, double, Instant) override {}
 
         TouchProbe& probe;
@@ -42,7 +42,7 @@ class TouchProbe final : public sim::Device {
         sim::Interval interval;
         int slot;
     };
-    void look(Instant now);
+    void update(Instant now);
 
     sim::Kernel& kernel_;
     sim::DeviceId id_{};

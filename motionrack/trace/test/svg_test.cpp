@@ -22,9 +22,9 @@ ReportData corner() {
 }
 
 TEST(SvgPath, FromAboveHasYUpAndDrawsTraversesApart) {
-    SvgLook look;
-    look.width = look.height = 268;  // 100 mm on 200 px
-    const std::string svg = svg_path(corner(), PathView::plan, look);
+    SvgStyle style;
+    style.width = style.height = 268;  // 100 mm on 200 px
+    const std::string svg = svg_path(corner(), PathView::plan, style);
     EXPECT_NE(svg.find("<polyline class=\"planned traverse\" points=\"34,234 134,194\"/>"), std::string::npos) << svg;
     EXPECT_NE(svg.find("<polyline class=\"planned\" points=\"134,194 134,74 54,74\"/>"), std::string::npos) << svg;
     EXPECT_NE(svg.find("<polyline class=\"driven\" points=\"34,234 134,194 134,74 54,74\"/>"), std::string::npos)
@@ -47,18 +47,18 @@ TEST(SvgPath, AShadeColoursRunsAndHasAScale) {
 }
 
 TEST(SvgPath, ArrowsTellTheWayAndNeverGrowIntoACrowd) {
-    SvgLook look;
-    look.width = look.height = 268;
+    SvgStyle style;
+    style.width = style.height = 268;
     ReportData data = corner();
     data.driven = {{0, 50, 5}, {100, 50, 5}};
-    const std::string right = svg_path(data, PathView::plan, look);
+    const std::string right = svg_path(data, PathView::plan, style);
     EXPECT_NE(right.find("class=\"arrow\" d=\"M85 134L75 138.5 75 129.5Z\""), std::string::npos) << right;
     std::reverse(data.driven.begin(), data.driven.end());
-    const std::string left = svg_path(data, PathView::plan, look);
+    const std::string left = svg_path(data, PathView::plan, style);
     EXPECT_NE(left.find("class=\"arrow\" d=\"M183 134L193 129.5 193 138.5Z\""), std::string::npos) << left;
     data.driven.clear();
     for (int i = 0; i < 3000; ++i) data.driven.push_back({i % 2 == 0 ? 0.0 : 100.0, i / 30.0, 5});
-    const std::string crowd = svg_path(data, PathView::plan, look);
+    const std::string crowd = svg_path(data, PathView::plan, style);
     std::size_t arrows = 0;
     for (std::size_t at = 0; (at = crowd.find("class=\"arrow\"", at)) != std::string::npos; ++at) ++arrows;
     EXPECT_GE(arrows, 30U);
@@ -74,10 +74,10 @@ TEST(SvgPath, AStopLooksUnlikeTheWorstPlace) {
 }
 
 TEST(SvgPath, StandsAloneWithStyleAndNameOnlyWhenAsked) {
-    SvgLook look;
-    EXPECT_EQ(svg_path(corner(), PathView::perspective, look).find("<style>"), std::string::npos);
-    look.standalone = true;
-    const std::string svg = svg_path(corner(), PathView::perspective, look);
+    SvgStyle style;
+    EXPECT_EQ(svg_path(corner(), PathView::perspective, style).find("<style>"), std::string::npos);
+    style.standalone = true;
+    const std::string svg = svg_path(corner(), PathView::perspective, style);
     EXPECT_EQ(svg.rfind("<svg xmlns=", 0), 0U);
     EXPECT_NE(svg.find("<style>"), std::string::npos);
 }

@@ -42,7 +42,7 @@ void HomeSearch::begin(const control::HomingRequest& order, const HomeFrame& fra
     if (order.hysteresis) hysteresis = *order.hysteresis * frame.counts_per_unit;
     edges_.begin(hysteresis, contacts_repeat * frame.counts_per_unit + 2);
     state_ = State::idle;
-    looked_ = now;
+    polled_ = now;
     Result<void> begun;
     if (auto here = driver_.position()) {
         counts_ = *here;
@@ -143,7 +143,7 @@ Result<void> HomeSearch::enter(State state, Instant now) {
 
 void HomeSearch::step(Instant now) {
     if (!running()) return;
-    if (const Result<void> looked = look(now); !looked) fail_with(looked.error(), now);
+    if (const Result<void> looked = poll(now); !looked) fail_with(looked.error(), now);
 }
 
 /// Distance since the last poll; if the counter was set to 0 in between, estimated from the previous velocity.
@@ -151,7 +151,7 @@ Result<void> HomeSearch::count(Instant now) {
     MOTIONRACK_TRY(const std::int64_t counts, driver_.position());
     // The counter may have become 0 just now, perhaps after it was read: the next poll decides.
     if (marking() && !marked_ && driver_.status().event()) return {};
-    const double seconds = to_seconds(now - looked_);
+    const double seconds = to_seconds(now - polled_);
     double step = static_cast<double>(counts - counts_);
     if (marked_ && !counted_) {
         step = pace_ * seconds;
@@ -164,7 +164,7 @@ Result<void> HomeSearch::count(Instant now) {
     way_ += step;
     step_ = std::fabs(step);
     counts_ = counts;
-    looked_ = now;
+    polled_ = now;
     return {};
 }
 
@@ -212,7 +212,7 @@ Result<void> HomeSearch::look_at_stop(Instant now) {
         fmt::format("the {} end stop is active and no reference was found before it", forward_ ? "right" : "left"));
 }
 
-Result<void> HomeSearch::look(Instant now) {
+Result<void> HomeSearch::poll(Instant now) {
     MOTIONRACK_CHECK(look_at_events(now));
     MOTIONRACK_CHECK(count(now));
     if (now >= stop_seen_) return look_at_stop(now);

@@ -60,7 +60,7 @@ class HomeSearch {
     std::uint8_t marks() const;
     Result<void> enter(State state, Instant now);
     Result<void> drive(bool towards, int rate);
-    Result<void> look(Instant now);
+    Result<void> poll(Instant now);
     Result<void> look_back(Instant now);
     Result<void> look_search(Instant now);
     Result<void> check_edge(double way);
@@ -93,7 +93,7 @@ class HomeSearch {
     double way_ = 0;           // counts along the whole search, without the zeroing
     double home_way_ = 0;      // distance at which home was found
     double pace_ = 0;          // velocity at the last poll, counts/s
-    Instant looked_{};
+    Instant polled_{};
     double step_ = 0;     // counts from the last poll to this one
     SwitchEdges edges_;   // in counts
     bool under_ = false;  // the reference was active before the index pulse under it

@@ -10,7 +10,7 @@ namespace motionrack::databoard4002 {
 
 namespace {
 
-constexpr Duration look_every = milliseconds(1);
+constexpr Duration poll_period = milliseconds(1);
 // The watchdog resets a hung card after one second; the motor coasts to a stop.
 constexpr Duration watchdog_rest = milliseconds(1'500);
 
@@ -122,7 +122,7 @@ Result<void> PositionAxis::wait(Duration timeout) {
                 fmt::format(
                     "Axis {} still moves after {:.3f} s, at {:.4f} {}; nothing was stopped. Wait longer, or stop it.",
                     settings_.name, to_seconds(timeout), position(), settings_.unit));
-        host_.pass(look_every);
+        host_.pass(poll_period);
     }
     if (homing && !search_.homed()) return tl::unexpected<Error>(search_.error());
     if (asked)

@@ -39,7 +39,7 @@ class Run {
         for (std::int64_t i = 0; i < accesses && !feed_.empty() && verdict_.problem.empty(); ++i) {
             something();
             ++verdict_.accesses;
-            look();
+            poll();
         }
         if (verdict_.problem.empty()) still_alive();
         verdict_.seconds += to_seconds(host_.kernel.now());
@@ -196,7 +196,7 @@ class Run {
         counter_ = host_.card.position();
         offset_ = counter_ - pulses();
     }
-    void look() {
+    void poll() {
         verdict_.pulses += std::abs(pulses() - last_pulses_);
         last_pulses_ = pulses();
         look_at_outputs();

@@ -103,7 +103,7 @@ struct World {
         }
     }
     void carry_out(const Op& op);
-    void look(Outcome& out, Ticks at) const;
+    void poll(Outcome& out, Ticks at) const;
 
     sim::Kernel kernel;
     Bus bus{kernel};
@@ -125,7 +125,7 @@ void World::carry_out(const Op& op) {
     };
     bool done = true;
     switch (op.kind) {
-        case Op::look:
+        case Op::poll:
             break;
         case Op::off:
             done = cards[op.who]->fault("off", static_cast<double>(op.a), now);
@@ -168,7 +168,7 @@ void World::carry_out(const Op& op) {
     settle();
 }
 
-void World::look(Outcome& out, Ticks at) const {
+void World::poll(Outcome& out, Ticks at) const {
     std::string text = row({at});
     for (int line = 0; line < line_count; ++line) text.append(row({bus.level(static_cast<grating_bus::Line>(line))}));
     out.looks.push_back(text);
@@ -207,9 +207,9 @@ Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at) {
         const Op& op = program.ops[i];
         world.run_to(std::max(world.kernel.now(), Instant{op.at - static_cast<std::int64_t>(i % 3)}));
         world.run_to(Instant{op.at});
-        if (watch == Watch::now_and_then && op.kind == Op::look) world.watcher.watch(op.a != 0);
+        if (watch == Watch::now_and_then && op.kind == Op::poll) world.watcher.watch(op.a != 0);
         world.carry_out(op);
-        world.look(out, op.at);
+        world.poll(out, op.at);
         if (i != snapshot_at) continue;
         std::vector<std::vector<Heard>> heard;
         for (const auto& listener : world.listeners) heard.push_back(listener->heard);

@@ -76,7 +76,7 @@ void put_conflicts(Outcome& out, const Twin& twin) {
                                      static_cast<std::int64_t>(all[i].low)}));
 }
 
-void look(Outcome& out, const Twin& twin, Ticks at, std::size_t cards) {
+void poll(Outcome& out, const Twin& twin, Ticks at, std::size_t cards) {
     std::string text = row({at});
     for (int line = 0; line < line_count; ++line) text.append(row({twin.levels()[static_cast<std::size_t>(line)]}));
     out.looks.push_back(text);
@@ -116,7 +116,7 @@ Outcome on_twin(const Program& program) {
     Outcome out;
     for (const Op& op : program.ops) {
         carry_out(twin, op);
-        look(out, twin, op.at, program.cards.size());
+        poll(out, twin, op.at, program.cards.size());
     }
     for (std::size_t i = 0; i < program.cards.size(); ++i) {
         const int card = static_cast<int>(i);

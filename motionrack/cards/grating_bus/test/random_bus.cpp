@@ -148,17 +148,17 @@ Op Maker::op() {
     op.who = static_cast<int>(below(cards));
     const bool host = program_.cards[static_cast<std::size_t>(op.who)].host;
     if (what < 15) {
-        op.kind = Op::look, op.a = below(2);
+        op.kind = Op::poll, op.a = below(2);
     } else if (what < 23) {
         op.kind = Op::off, op.a = 1;
     } else if (what < 30) {
         op.kind = Op::reset, op.a = below(2);
     } else if (what < 42) {
-        op.kind = host ? Op::look : Op::late, op.a = one_in(3) ? 0 : one_in(3) ? below(2 * period_) : time(0, 30);
+        op.kind = host ? Op::poll : Op::late, op.a = one_in(3) ? 0 : one_in(3) ? below(2 * period_) : time(0, 30);
     } else if (what < 50) {
-        op.kind = host ? Op::look : Op::miss_edges, op.a = below(4);
+        op.kind = host ? Op::poll : Op::miss_edges, op.a = below(4);
     } else if (what < 55) {
-        op.kind = host ? Op::jitter : Op::look,
+        op.kind = host ? Op::jitter : Op::poll,
         op.a = one_in(3) ? 0 : below(one_in(2) ? period_ / 2 : 1 + period_ / 20);
     } else if (what < 60) {
         op.kind = Op::no_latch, op.who = 0, op.a = 1;
@@ -185,7 +185,7 @@ Twin twin_of(const Program& program, bool every_tick) {
 void carry_out(Twin& twin, const Op& op) {
     twin.run_to(op.at);
     switch (op.kind) {
-        case Op::look:
+        case Op::poll:
             break;
         case Op::off:
             twin.set_off(op.who, op.a != 0);

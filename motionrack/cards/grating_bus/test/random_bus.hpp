@@ -11,9 +11,9 @@ namespace motionrack::grating_bus::twin {
 
 /// One external action; `who`: a card or decoder, `a` and `b`: parameters of the kind.
 struct Op {
-    enum Kind { look, off, reset, late, miss_edges, jitter, no_latch, force, release, claim, give_back, clear };
+    enum Kind { poll, off, reset, late, miss_edges, jitter, no_latch, force, release, claim, give_back, clear };
     Ticks at = 0;
-    Kind kind = look;
+    Kind kind = poll;
     int who = 0;
     std::int64_t a = 0;  ///< off, no_latch: 0 or 1; late, jitter: ticks; miss_edges: number; force: level; look: wires
     Line line = clk;

@@ -96,7 +96,7 @@ void EncoderCheck::look_at_index(const AxisDetail& now, std::vector<Finding>& ou
 
 // ---- polls
 
-std::vector<Finding> EncoderCheck::look(const AxisDetail& now) {
+std::vector<Finding> EncoderCheck::update(const AxisDetail& now) {
     std::vector<Finding> out;
     if (begun_) {
         look_at_lines(now, out);

@@ -49,7 +49,7 @@ class EncoderCheck {
     explicit EncoderCheck(const EncoderCheckSettings& settings = {}) : settings_(settings) {}
 
     /// Returns the findings since the last poll; the first poll only initialises.
-    std::vector<Finding> look(const AxisDetail& now);
+    std::vector<Finding> update(const AxisDetail& now);
     /// Checks a move in one direction of about `counts` counts (signed, more than 8) from `before` to `now`: the
     /// direction of counting, and the number of surplus edges.
     std::vector<Finding> check_move(const AxisDetail& before, const AxisDetail& now, std::int64_t counts) const;

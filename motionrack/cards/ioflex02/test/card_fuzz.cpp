@@ -25,7 +25,7 @@ class Run {
         for (std::int64_t i = 0; i < accesses && !feed_.empty() && verdict_.problem.empty(); ++i) {
             something();
             ++verdict_.accesses;
-            look();
+            poll();
             if (i % 64 == 0) look_closer();
         }
         if (verdict_.problem.empty()) still_alive();
@@ -133,7 +133,7 @@ class Run {
         verdict_.problem =
             fmt::format("{} (access {}, {:.7f} s)", what, verdict_.accesses, to_seconds(rig_.kernel.now()));
     }
-    void look() {
+    void poll() {
         check(rig_.card.time() <= mask_24, "a time of more than 24 bits");
         const bool known = rig_.card.running() && rig_.card.peek(offset("STS")) != no_answer;
         for (int axis = 0; axis < 4; ++axis) {

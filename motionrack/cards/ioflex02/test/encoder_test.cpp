@@ -32,7 +32,7 @@ struct Machine {
         rig.start();
         card.Init(0x2300);
         rig.run(microseconds(1));
-        check.look(detail());
+        check.update(detail());
     }
     AxisDetail detail() { return card.read_details()[2]; }
     bool fault(const char* name, double value) {
@@ -46,14 +46,14 @@ struct Machine {
         place.drive(step, steps < 0 ? -1 : 1);
         while (rig.kernel.now() < until) {
             rig.run(std::min(milliseconds(1), until - rig.kernel.now()));
-            look();
+            update();
         }
         place.drive(step, 0);
         rig.run(microseconds(200));
-        look();
+        update();
     }
-    void look() {
-        for (const Finding& f : check.look(detail())) found.push_back(f);
+    void update() {
+        for (const Finding& f : check.update(detail())) found.push_back(f);
     }
     std::string sentence(const Finding& f) { return describe(f, detail(), "2"); }
 
@@ -246,13 +246,13 @@ TEST(EncoderCheck, TellsIllegalTransitionsAndTheirPlace) {
     m.rig.kernel.force(m.rig.kernel.find_wire("c1.a2"), 1 - m.rig.level("a2"));
     m.rig.kernel.force(m.rig.kernel.find_wire("c1.b2"), 1 - m.rig.level("b2"));
     m.rig.run(milliseconds(1));
-    m.look();
+    m.update();
     ASSERT_EQ(m.found.size(), 1u);
     EXPECT_EQ(m.found[0].fault, EncoderFault::illegal);
     EXPECT_EQ(m.found[0].number, 1);
     EXPECT_EQ(m.found[0].to, 70);
     EXPECT_THAT(m.sentence(m.found[0]), HasSubstr("changed at once 1 times, the last time at 70"));
-    m.look();
+    m.update();
     EXPECT_EQ(m.found.size(), 1u);
 }
 

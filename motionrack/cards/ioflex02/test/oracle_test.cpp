@@ -17,7 +17,7 @@ constexpr Duration half = nanoseconds(50);
 
 struct Op {
     std::int64_t at = 0;  ///< in halves of a sample
-    enum Kind { wire, input, write, read, look } kind = wire;
+    enum Kind { wire, input, write, read, poll } kind = wire;
     int a = 0, b = 0, c = 0;
 };
 
@@ -40,7 +40,7 @@ class Maker {
         if (!out.preloaded) configure();
         const std::size_t length = 30 + below(300);
         while (out.ops.size() < length) one();
-        op(Op::look);
+        op(Op::poll);
         return out;
     }
 
@@ -101,7 +101,7 @@ class Maker {
         } else if (what == 98 && below(3) == 0) {
             configure();
         } else {
-            op(Op::look);
+            op(Op::poll);
         }
     }
 
@@ -119,7 +119,7 @@ struct Outcome {
 };
 
 template <class Read, class Write>
-void look(std::vector<int>& out, Read read, Write write) {
+void poll(std::vector<int>& out, Read read, Write write) {
     write(0x10, 1);
     for (int at = 0; at <= 0x44; at += 2) out.push_back(read(at));
     for (int axis = 0; axis < 4; ++axis) {
@@ -139,7 +139,7 @@ Outcome on_twin(const Program& program) {
         if (op.kind == Op::input) twin.input(op.a, op.b);
         if (op.kind == Op::write) twin.write(op.a, op.b);
         if (op.kind == Op::read) out.words.push_back(twin.read(op.a));
-        if (op.kind == Op::look) look(out.words, read, write);
+        if (op.kind == Op::poll) poll(out.words, read, write);
         out.words.push_back(twin.outputs());
     }
     out.notes = twin.notes();
@@ -185,7 +185,7 @@ Outcome on_card(const Program& program, std::size_t snapshot_at) {
         if (op.kind == Op::input) wire("in" + std::to_string(op.a), op.b);
         if (op.kind == Op::write) write(op.a, op.b);
         if (op.kind == Op::read) out.words.push_back(read(op.a));
-        if (op.kind == Op::look) look(out.words, read, write);
+        if (op.kind == Op::poll) poll(out.words, read, write);
         int outputs = 0;
         for (int n = 0; n < 16; ++n) outputs |= kernel.level(kernel.find_wire("c.out" + std::to_string(n))) << n;
         out.words.push_back(outputs);

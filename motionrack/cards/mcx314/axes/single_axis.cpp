@@ -11,7 +11,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr Duration look_every = milliseconds(1);
+constexpr Duration poll_period = milliseconds(1);
 constexpr double pulse_slack = 1e-6;  // a value this close to a whole pulse is taken as whole
 constexpr double max_pulses = static_cast<double>(param::pulses.max), max_place = static_cast<double>(param::LP.max);
 
@@ -344,8 +344,8 @@ Result<void> SingleAxis::wait(Duration timeout) {
                     "Axis {} still moves after {:.3f} s, at {:.4f} {}; nothing was stopped. Wait longer, or stop it.",
                     settings_.name, to_seconds(timeout), position(), settings_.unit));
         const Instant before = host.now();
-        if (host.wait(look_every)) driver_.read_interrupts(settings_.channel);
-        if (host.now() == before) host.pass(look_every);
+        if (host.wait(poll_period)) driver_.read_interrupts(settings_.channel);
+        if (host.now() == before) host.pass(poll_period);
     }
     if (homing && !home_.homed()) return home_.report().result();
     if (asked)

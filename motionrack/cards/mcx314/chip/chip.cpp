@@ -121,7 +121,7 @@ void Chip::reschedule() {
     std::int64_t next = state_.next_sample;
     for_each_axis(state_.working, [&](int a) {
         const Generator& gen = state_.axis[a].gen;
-        if (gen.next_tick <= state_.tick || gen.look || !gen.special_known) {
+        if (gen.next_tick <= state_.tick || gen.full_tick || !gen.special_known) {
             bring_up(a, state_.tick);
             find_next_tick(a);
         }
@@ -187,7 +187,7 @@ void Chip::catch_up_before(Instant now) {
 
 /// After a change of inputs, limits or commands, every generator executes its next working tick in full.
 void Chip::look_anew() {
-    for (Axis& axis : state_.axis) axis.gen.look = true;
+    for (Axis& axis : state_.axis) axis.gen.full_tick = true;
 }
 
 /// After a change of watched, compared or requested values, the next special pulse of every generator is unknown.

@@ -81,7 +81,7 @@ void Chip::sample_external_drive(int a) {
         }
         if (rises && axis.external == 1 + minus) {
             axis.gen.ask_decelerating = true;
-            axis.gen.look = true;
+            axis.gen.full_tick = true;
         }
         if (axis.external_low[minus] == 1) state_.sampled |= 1u << a;
     }

@@ -104,7 +104,7 @@ void Chip::work_in_full(std::int64_t to) {
     for_each_axis(state_.working, [&](int a) {
         Generator& gen = state_.axis[a].gen;
         bring_up(a, to - 1);
-        gen.look = true;
+        gen.full_tick = true;
         gen.plain = gen.walks = false;
         gen.next_tick = to;
     });

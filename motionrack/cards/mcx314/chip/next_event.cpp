@@ -13,7 +13,7 @@ namespace motionrack::mcx314 {
 void Chip::find_next_tick(int a) {
     Generator& gen = state_.axis[a].gen;
     gen.plain = gen.walks = false;
-    if (gen.wait > 0 || gen.look) {
+    if (gen.wait > 0 || gen.full_tick) {
         gen.next_tick = state_.tick + gen.wait + 1;
         if (gen.special_known) return;
     }
@@ -21,7 +21,7 @@ void Chip::find_next_tick(int a) {
         const std::int64_t pulses = pulses_to_special(a);
         gen.next_special = pulses >= far ? far : gen.n + pulses;
         gen.special_known = true;
-        if (gen.wait > 0 || gen.look) return;
+        if (gen.wait > 0 || gen.full_tick) return;
     }
     const std::int64_t ticks = ticks_to_speed_event(state_.axis[a]);
     gen.next_tick = state_.tick + ticks;

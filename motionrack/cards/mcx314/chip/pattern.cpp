@@ -85,7 +85,7 @@ void Chip::look_ahead_in_pattern() {
         Axis& axis = state_.axis[command.axis[i]];
         if (direction == 0 || direction == axis.direction) continue;
         axis.direction = direction;
-        state_.axis[state_.master].gen.look = true;  // the opposite limit applies
+        state_.axis[state_.master].gen.full_tick = true;  // the opposite limit applies
     }
 }
 

@@ -277,7 +277,7 @@ void Chip::begin_generator(int a, Drive drive) {
     gen.constant = v <= sv;
     gen.speed = std::min(v, sv);
     gen.at = state_.tick;
-    gen.look = true;  // the first working tick in full, independent of events in the start ticks
+    gen.full_tick = true;  // the first working tick in full, independent of events in the start ticks
     axis.gen = gen;
     if (extended_) choose_deceleration(a);
     state_.working |= 1u << a;

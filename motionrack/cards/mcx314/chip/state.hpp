@@ -104,7 +104,7 @@ struct Generator : Speed {
     bool manual = false, own_deceleration = false, s_curve = false;
     bool final = false, final_seen = false, stopping = false, constant = false;
     bool ask_decelerating = false, ask_immediate = false;
-    bool look = false;  ///< the next working tick must be executed in full (inputs, limits or commands changed)
+    bool full_tick = false;  ///< the next working tick must be executed in full (inputs, limits or commands changed)
     bool special_known = false;  ///< next_special is up to date
     bool plain = false;          ///< the event at next_tick is only a step of the speed
     bool walks = false;          ///< plain, and further steps lie before it (State::ahead), or the generator waits

@@ -47,7 +47,7 @@ void Chip::work(int a) {
         --gen.wait;
         return;
     }
-    gen.look = false;
+    gen.full_tick = false;
     if (inputs(a)) return;
     if (gen.drive == Drive::fixed && gen.n >= state_.axis[a].pulses) return end(a);
     if (gen.drive == Drive::path && path_finished() && segment_end(a)) return;
@@ -198,7 +198,7 @@ int Chip::step_axes(int a) {
             state_.axis[axis].direction = path_direction(i);
         }
         if (path.arc.octant != octant) {
-            state_.axis[a].gen.look = true;
+            state_.axis[a].gen.full_tick = true;
             state_.axis[a].gen.special_known = false;
             law_changed_of(a);
         }
@@ -265,7 +265,7 @@ bool Chip::segment_end(int a) {
     begin_segment(state_.queue);
     gen.range_now = state_.path.range_for[static_cast<std::size_t>(state_.stepped - 1)];
     gen.special_known = false;
-    gen.look = true;
+    gen.full_tick = true;
     law_changed_of(a);
     if (wr5::CIINT.test(state_.wr5)) state_.path_interrupt = true;
     if (path_finished()) return end(a), true;

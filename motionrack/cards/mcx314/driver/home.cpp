@@ -21,7 +21,7 @@ constexpr Field emergency_stopped = field("RR1", "EMG"), emergency = field("RR2"
 
 // ---- polling
 
-Home::PollData Home::look() {
+Home::PollData Home::poll() {
     PollData out;
     out.driving = driver_.status().driving(mask());
     out.status = driver_.axis_status(axis_);
@@ -33,14 +33,14 @@ Home::PollData Home::look() {
     return out;
 }
 
-bool Home::limit_in_way(const PollData& look, SearchDirection way) const {
-    return (settings_.negative == (way == SearchDirection::towards) ? minus_limit : plus_limit).test(look.status.rr2);
+bool Home::limit_in_way(const PollData& poll, SearchDirection way) const {
+    return (settings_.negative == (way == SearchDirection::towards) ? minus_limit : plus_limit).test(poll.status.rr2);
 }
 
 /// The first change of the awaited home input is its edge; every later change is bounce.
-void Home::note_switch(const PollData& look, Instant now) {
-    if (look.switch_on == switch_on_) return;
-    switch_on_ = look.switch_on;
+void Home::note_switch(const PollData& poll, Instant now) {
+    if (poll.switch_on == switch_on_) return;
+    switch_on_ = poll.switch_on;
     steady_since_ = now;
     const bool waited_for = state_->does == HomingAction::wait_end &&
                             (state_->until == HomingStopInput::on || state_->until == HomingStopInput::off) &&
@@ -53,12 +53,12 @@ void Home::note_switch(const PollData& look, Instant now) {
 
 /// The chip decelerates at the first contact, independent of bounce at the instant of a poll: the deceleration locates
 /// the edge.
-void Home::note_braking(const PollData& look, Instant now) {
-    if (braking_ || state_->until != HomingStopInput::on || !(look.switch_on || look.status.decelerating())) return;
-    braking_ = edge_here(look, now);
+void Home::note_braking(const PollData& poll, Instant now) {
+    if (braking_ || state_->until != HomingStopInput::on || !(poll.switch_on || poll.status.decelerating())) return;
+    braking_ = edge_here(poll, now);
 }
 
-ChipHomingEdge Home::edge_here(const PollData& look, Instant now) {
+ChipHomingEdge Home::edge_here(const PollData& poll, Instant now) {
     // At constant speed the chip stops at the edge itself; otherwise the edge was after the last poll, or within its
     // accesses.
     const bool exact = state_->pace != HomingSpeed::fast;
@@ -66,10 +66,10 @@ ChipHomingEdge Home::edge_here(const PollData& look, Instant now) {
     return {state_->name,
             index ? settings_.index_input : settings_.input,
             index || state_->until == HomingStopInput::on,
-            look.lp,
+            poll.lp,
             driver_.ReadEPS(axis_),
-            exact ? 0 : rules::magnitude(way_between(last_lp_, look.lp)) + 1,
-            hertz(exact ? speed() : std::max(look.cv, last_cv_)),
+            exact ? 0 : rules::magnitude(way_between(last_lp_, poll.lp)) + 1,
+            hertz(exact ? speed() : std::max(poll.cv, last_cv_)),
             now};
 }
 
@@ -104,7 +104,7 @@ Result<void> Home::start(const HomeSettings& settings, Instant now) {
     running_ = true;
     stop_asked_ = turned_ = again_ = false;
     failed_in_ = {};
-    const PollData first = look();
+    const PollData first = poll();
     switch_on_ = first.switch_on;
     last_lp_ = first.lp;
     state_ = nullptr;
@@ -116,7 +116,7 @@ Result<void> Home::start(const HomeSettings& settings, Instant now) {
 
 void Home::step(Instant now) {
     if (!running_) return;
-    const PollData seen = look();
+    const PollData seen = poll();
     note_switch(seen, now);
     // RR1 describes the last drive; it is valid only after a drive of this homing.
     const unsigned ended_by = state_->does == HomingAction::wait_end ? seen.status.rr1 : 0u;
@@ -139,61 +139,61 @@ void Home::step(Instant now) {
     last_cv_ = seen.cv;
 }
 
-void Home::enter(std::string_view name, const PollData& look, Instant now) {
+void Home::enter(std::string_view name, const PollData& poll, Instant now) {
     if (state_ != nullptr && !report_.stays.empty()) {
         report_.stays.back().took = now - report_.stays.back().from;
-        report_.stays.back().to_lp = look.lp;
+        report_.stays.back().to_lp = poll.lp;
     }
     state_ = &table_->state(name);
-    report_.stays.push_back({state_->name, now, {}, look.lp, look.lp});
+    report_.stays.push_back({state_->name, now, {}, poll.lp, poll.lp});
     edge_in_state_ = false;
-    if (state_->does == HomingAction::end) finish(look, now);
+    if (state_->does == HomingAction::end) finish(poll, now);
 }
 
-bool Home::leave_by(HomingTransition cause, const PollData& look, Instant now) {
+bool Home::leave_by(HomingTransition cause, const PollData& poll, Instant now) {
     for (const HomeExit& exit : state_->exits) {
         if (exit.to.empty() || exit.cause != cause) continue;
-        enter(exit.to, look, now);
+        enter(exit.to, poll, now);
         return true;
     }
     return false;
 }
 
-void Home::run(const PollData& look, Instant now) {
+void Home::run(const PollData& poll, Instant now) {
     switch (state_->does) {
-        case HomingAction::look:
-            if (look.switch_on)
-                leave_by(HomingTransition::on, look, now);
-            else if (limit_in_way(look, SearchDirection::towards) && !settings_.turn_at_limit)
-                fail(HomeFault::not_found, look, now);
-            else if (limit_in_way(look, SearchDirection::towards))
-                turned_ = true, leave_by(HomingTransition::limit, look, now);
+        case HomingAction::poll:
+            if (poll.switch_on)
+                leave_by(HomingTransition::on, poll, now);
+            else if (limit_in_way(poll, SearchDirection::towards) && !settings_.turn_at_limit)
+                fail(HomeFault::not_found, poll, now);
+            else if (limit_in_way(poll, SearchDirection::towards))
+                turned_ = true, leave_by(HomingTransition::limit, poll, now);
             else
-                leave_by(HomingTransition::off, look, now);
+                leave_by(HomingTransition::off, poll, now);
             return;
         case HomingAction::drive:
-            return drive(look, now);
+            return drive(poll, now);
         case HomingAction::wait_end:
-            return wait_end(look, now);
+            return wait_end(poll, now);
         case HomingAction::settle:
             steady_since_ = now;
             deadline_ = now + settings_.timeout;
-            leave_by(HomingTransition::done, look, now);
+            leave_by(HomingTransition::done, poll, now);
             return;
         case HomingAction::wait_steady:
             if (now - steady_since_ < settings_.settle) {
-                if (now >= deadline_) fail(HomeFault::time, look, now);
-            } else if (look.switch_on) {
-                leave_by(HomingTransition::on, look, now);
-            } else if (report_.index_lp || !leave_by(HomingTransition::unseen, look, now)) {
-                leave_by(HomingTransition::off, look, now);
+                if (now >= deadline_) fail(HomeFault::time, poll, now);
+            } else if (poll.switch_on) {
+                leave_by(HomingTransition::on, poll, now);
+            } else if (report_.index_lp || !leave_by(HomingTransition::unseen, poll, now)) {
+                leave_by(HomingTransition::off, poll, now);
             }
             return;
         case HomingAction::zero:
-            return zero(look, now);
+            return zero(poll, now);
         case HomingAction::wait_stop:
-            if (look.driving && now >= deadline_) driver_.QuickStop(mask());
-            if (!look.driving || now >= deadline_) leave_by(HomingTransition::done, look, now);
+            if (poll.driving && now >= deadline_) driver_.QuickStop(mask());
+            if (!poll.driving || now >= deadline_) leave_by(HomingTransition::done, poll, now);
             return;
         case HomingAction::end:
             return;
@@ -216,9 +216,9 @@ std::int64_t Home::speed() const {
                                                : settings_.slow_v;
 }
 
-void Home::drive(const PollData& look, Instant now) {
-    if (state_->until == HomingStopInput::index && look.index_on && settings_.type != 5)
-        return fail(HomeFault::index_at_switch, look, now);
+void Home::drive(const PollData& poll, Instant now) {
+    if (state_->until == HomingStopInput::index && poll.index_on && settings_.type != 5)
+        return fail(HomeFault::index_at_switch, poll, now);
     if (state_->until == HomingStopInput::distance) {
         planned_ = settings_.backoff;
         if (settings_.type == 1 || settings_.type == 3) planned_ = std::max(planned_, run_up());
@@ -238,60 +238,60 @@ void Home::drive(const PollData& look, Instant now) {
     at_speed_ = false;
     braking_.reset();
     deadline_ = now + std::min(settings_.timeout, drive_time(planned_, speed()));
-    leave_by(HomingTransition::done, look, now);
+    leave_by(HomingTransition::done, poll, now);
 }
 
 /// Ends a WAIT state at the end of the drive, by its cause.
-void Home::wait_end(const PollData& look, Instant now) {
-    if (look.driving) {
-        at_speed_ = at_speed_ || (look.cv >= settings_.v && !look.switch_on);
-        note_braking(look, now);
-        if (now >= deadline_) fail(HomeFault::time, look, now);
+void Home::wait_end(const PollData& poll, Instant now) {
+    if (poll.driving) {
+        at_speed_ = at_speed_ || (poll.cv >= settings_.v && !poll.switch_on);
+        note_braking(poll, now);
+        if (now >= deadline_) fail(HomeFault::time, poll, now);
         return;
     }
-    const bool limit = plus_limit_stopped.test(look.status.rr1) || minus_limit_stopped.test(look.status.rr1);
+    const bool limit = plus_limit_stopped.test(poll.status.rr1) || minus_limit_stopped.test(poll.status.rr1);
     const int input = state_->until == HomingStopInput::index ? settings_.index_input : settings_.input;
-    const bool reached = state_->until != HomingStopInput::distance && look.status.stopped_by_input(input);
+    const bool reached = state_->until != HomingStopInput::distance && poll.status.stopped_by_input(input);
     // At constant speed the drive ends at the input's position, even if a limit switch acts at the same position.
-    if (reached && (!limit || state_->pace != HomingSpeed::fast)) return drive_reached(look, now);
+    if (reached && (!limit || state_->pace != HomingSpeed::fast)) return drive_reached(poll, now);
     if (limit) {
         const bool again = turned_;
         if (state_->until == HomingStopInput::on && state_->way == SearchDirection::towards) turned_ = true;
         if ((settings_.turn_at_limit && !again) || state_->until == HomingStopInput::distance)
-            if (leave_by(HomingTransition::limit, look, now)) return;
+            if (leave_by(HomingTransition::limit, poll, now)) return;
     } else if (state_->until == HomingStopInput::distance) {
-        if (distance(look) == planned_) return static_cast<void>(leave_by(HomingTransition::done, look, now));
-        return fail(HomeFault::foreign_stop, look, now);
+        if (distance(poll) == planned_) return static_cast<void>(leave_by(HomingTransition::done, poll, now));
+        return fail(HomeFault::foreign_stop, poll, now);
     } else {
-        if (distance(look) != planned_) return fail(HomeFault::foreign_stop, look, now);
+        if (distance(poll) != planned_) return fail(HomeFault::foreign_stop, poll, now);
     }
-    if (state_->until == HomingStopInput::index) return fail(HomeFault::no_index, look, now);
+    if (state_->until == HomingStopInput::index) return fail(HomeFault::no_index, poll, now);
     fail(reached                                 ? HomeFault::near_limit
          : state_->until == HomingStopInput::off ? HomeFault::not_released
                                                  : HomeFault::not_found,
-         look, now);
+         poll, now);
 }
 
 /// The awaited input has ended the drive. Its present level may be bounce; the chip's stop flag is decisive.
-void Home::drive_reached(const PollData& look, Instant now) {
-    const ChipHomingEdge edge = braking_ && state_->pace == HomingSpeed::fast ? *braking_ : edge_here(look, now);
+void Home::drive_reached(const PollData& poll, Instant now) {
+    const ChipHomingEdge edge = braking_ && state_->pace == HomingSpeed::fast ? *braking_ : edge_here(poll, now);
     report_.edges.push_back(edge);
     if (state_->until == HomingStopInput::index) {
         report_.index_lp = edge.lp;
         const std::int64_t off = report_.switch_to_index().value_or(0) - settings_.index_after;
         if (settings_.index_after >= 0 && rules::magnitude(off) > std::max<std::int64_t>(1, settings_.turn / 4))
-            return fail(HomeFault::wrong_index, look, now);
+            return fail(HomeFault::wrong_index, poll, now);
     } else {
         if (!edge_in_state_) switch_on_ = edge.active;
         edge_in_state_ = true;
     }
-    if (!is_edge_of_switch(edge)) return fail(HomeFault::edges_differ, look, now);
+    if (!is_edge_of_switch(edge)) return fail(HomeFault::edges_differ, poll, now);
     if (state_->until == HomingStopInput::on) {
         report_.switch_lp = edge.lp;
         report_.switch_within = edge.within;
         report_.switch_speed_hz = edge.speed_hz;
     }
-    if (stopped_early() && leave_by(HomingTransition::early, look, now)) {
+    if (stopped_early() && leave_by(HomingTransition::early, poll, now)) {
         again_ = true;
         return;
     }
@@ -300,7 +300,7 @@ void Home::drive_reached(const PollData& look, Instant now) {
         report_.notes.push_back(
             "the switch came before V was reached, without room for a longer run-up: a start from farther away may "
             "find another edge");
-    leave_by(HomingTransition::done, look, now);
+    leave_by(HomingTransition::done, poll, now);
 }
 
 /// Compares the edges of the approach with those of the previous approach.
@@ -318,12 +318,12 @@ bool Home::stopped_early() const {
     return state_->pace == HomingSpeed::fast && !at_speed_ && !again_ && settings_.v > settings_.sv;
 }
 
-void Home::zero(const PollData& look, Instant now) {
-    report_.zero_lp = look.lp;
+void Home::zero(const PollData& poll, Instant now) {
+    report_.zero_lp = poll.lp;
     report_.zero_ep = driver_.ReadEPS(axis_);
     static_cast<void>(driver_.LPS(mask(), settings_.home_position));  // check_ready() has checked the ranges
     static_cast<void>(driver_.EPS(mask(), settings_.home_counts));
-    leave_by(HomingTransition::done, look, now);
+    leave_by(HomingTransition::done, poll, now);
 }
 
 // ---- end
@@ -334,31 +334,31 @@ void Home::stop() {
     driver_.SlowStop(mask());
 }
 
-void Home::fail(HomeFault fault, const PollData& look, Instant now) {
+void Home::fail(HomeFault fault, const PollData& poll, Instant now) {
     report_.fault = fault;
     failed_in_ = state_->name;
-    failed_after_ = distance(look);
-    if (look.driving) driver_.SlowStop(mask());
+    failed_after_ = distance(poll);
+    if (poll.driving) driver_.SlowStop(mask());
     deadline_ = now + std::min(settings_.timeout, drive_time(run_up(), settings_.v));
-    enter("STOPPING_WAIT", look, now);
-    if (!look.driving) leave_by(HomingTransition::done, look, now);
+    enter("STOPPING_WAIT", poll, now);
+    if (!poll.driving) leave_by(HomingTransition::done, poll, now);
 }
 
-void Home::finish(const PollData& look, Instant now) {
+void Home::finish(const PollData& poll, Instant now) {
     running_ = false;
     report_.homed = report_.fault == HomeFault::none;
     report_.took = now - report_.from;
     driver_.WriteMode1(mask(), mode_before_[0]);
     driver_.WriteMode3(mask(), mode_before_[2]);
     if (report_.homed) driver_.WriteMode2(mask(), mode_before_[1]);
-    report_.sentence = why_failed(look);
+    report_.sentence = why_failed(poll);
 }
 
 // ---- arithmetic
 
 /// Pulses made by the present drive.
-std::int64_t Home::distance(const PollData& look) const {
-    return rules::magnitude(way_between(report_.stays.back().from_lp, look.lp));
+std::int64_t Home::distance(const PollData& poll) const {
+    return rules::magnitude(way_between(report_.stays.back().from_lp, poll.lp));
 }
 
 /// Pulses from SV to V plus a hundredth of a second at V, so that a poll falls into it.

@@ -87,24 +87,24 @@ class Home {
     };
 
     unsigned mask() const { return 1u << axis_; }
-    PollData look();
+    PollData poll();
     Result<void> check_ready();
-    void note_switch(const PollData& look, Instant now);
-    void note_braking(const PollData& look, Instant now);
-    ChipHomingEdge edge_here(const PollData& look, Instant now);
-    bool limit_in_way(const PollData& look, SearchDirection way) const;
-    void enter(std::string_view name, const PollData& look, Instant now);
-    bool leave_by(HomingTransition cause, const PollData& look, Instant now);
-    void run(const PollData& look, Instant now);
-    void drive(const PollData& look, Instant now);
-    void wait_end(const PollData& look, Instant now);
-    void drive_reached(const PollData& look, Instant now);
+    void note_switch(const PollData& poll, Instant now);
+    void note_braking(const PollData& poll, Instant now);
+    ChipHomingEdge edge_here(const PollData& poll, Instant now);
+    bool limit_in_way(const PollData& poll, SearchDirection way) const;
+    void enter(std::string_view name, const PollData& poll, Instant now);
+    bool leave_by(HomingTransition cause, const PollData& poll, Instant now);
+    void run(const PollData& poll, Instant now);
+    void drive(const PollData& poll, Instant now);
+    void wait_end(const PollData& poll, Instant now);
+    void drive_reached(const PollData& poll, Instant now);
     bool is_edge_of_switch(const ChipHomingEdge& edge);
     bool stopped_early() const;
-    void zero(const PollData& look, Instant now);
-    void fail(HomeFault fault, const PollData& look, Instant now);
-    void finish(const PollData& look, Instant now);
-    std::int64_t distance(const PollData& look) const;
+    void zero(const PollData& poll, Instant now);
+    void fail(HomeFault fault, const PollData& poll, Instant now);
+    void finish(const PollData& poll, Instant now);
+    std::int64_t distance(const PollData& poll) const;
     std::int64_t run_up() const;
     Duration drive_time(std::int64_t pulses, std::int64_t v) const;
     double hertz(std::int64_t v) const;
@@ -115,7 +115,7 @@ class Home {
     std::string place(std::int32_t lp) const;
     std::string switch_text() const;
     std::pair<std::string, std::string> input_failure(const std::string& how_far) const;
-    std::string why_failed(const PollData& look) const;
+    std::string why_failed(const PollData& poll) const;
 
     Driver& driver_;
     int axis_;

@@ -23,7 +23,7 @@ constexpr HomeState wait_steady(std::string_view name, std::string_view meaning,
 
 constexpr HomeState check_start = {"CHECK_START",
                                    "checks the inputs at the start position",
-                                   HomingAction::look,
+                                   HomingAction::poll,
                                    {{{off, "SEARCH_START"}, {on, "BACK_START"}, {limit, "RETURN_START"}}}};
 constexpr HomeState search_start = drive("SEARCH_START", "towards the switch at V", "SEARCH_WAIT",
                                          SearchDirection::towards, HomingSpeed::fast, HomingStopInput::on);

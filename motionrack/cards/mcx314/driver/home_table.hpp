@@ -14,7 +14,7 @@ namespace motionrack::mcx314 {
 
 /// Action of a homing state. All states except the three waits and the ends continue at once.
 enum class HomingAction : std::uint8_t {
-    look,         ///< reads the position of the axis
+    poll,         ///< reads the position of the axis
     drive,        ///< writes stop input, speed and pulses, and starts
     wait_end,     ///< until the drive has ended (RR0), then reads the cause (RR1)
     settle,       ///< records the time

@@ -182,7 +182,7 @@ std::pair<std::string, std::string> Home::input_failure(const std::string& how_f
 }
 
 /// The failure, its position, the present position and the remedy; or the home position.
-std::string Home::why_failed(const PollData& look) const {
+std::string Home::why_failed(const PollData& poll) const {
     const std::string axis = settings_.name.empty() ? std::string(1, "XYZU"[axis_]) : settings_.name;
     if (report_.homed)
         return settings_.unit == "pulses"
@@ -192,7 +192,7 @@ std::string Home::why_failed(const PollData& look) const {
                                  axis, report_.zero_lp / settings_.pulses_per_unit,
                                  static_cast<double>(settings_.home_position) / settings_.pulses_per_unit,
                                  settings_.unit);
-    const bool at_limit = limit_in_way(look, SearchDirection::towards) || limit_in_way(look, SearchDirection::away);
+    const bool at_limit = limit_in_way(poll, SearchDirection::towards) || limit_in_way(poll, SearchDirection::away);
     const std::string how_far = text(failed_after_) + (at_limit ? ", where a limit switch ended the search" : "");
     std::string what, next;
     switch (report_.fault) {
@@ -232,8 +232,8 @@ std::string Home::why_failed(const PollData& look) const {
             break;
     }
     return fmt::format("Axis {} is not homed: {}. It {} {}; its position is not valid. {} again.", axis, what,
-                       look.driving ? "still moves after a stop command, at" : "was stopped and stands at",
-                       place(look.lp), next.empty() ? "Home it" : fmt::format("{}, then home", next));
+                       poll.driving ? "still moves after a stop command, at" : "was stopped and stands at",
+                       place(poll.lp), next.empty() ? "Home it" : fmt::format("{}, then home", next));
 }
 
 }  // namespace motionrack::mcx314

@@ -15,11 +15,11 @@ class QuickStops final : public Interrupt {
   public:
     QuickStops(RegisterPort& port, Interrupt& inner) : port_(port), inner_(inner) {}
     bool wait(Duration timeout) override {
-        look();
+        poll();
         return inner_.wait(timeout);
     }
     void pass(Duration duration) override {
-        look();
+        poll();
         inner_.pass(duration);
     }
     Instant now() const override { return inner_.now(); }
@@ -28,7 +28,7 @@ class QuickStops final : public Interrupt {
     void stop();
 
   private:
-    void look() {
+    void poll() {
         if (inner_.stop_requested()) stop();
     }
 

@@ -284,9 +284,9 @@ class Run {
         const sim::Snapshot before = kernel_.snapshot();
         const std::array<Sum, 2> edges = edges_;
         std::array<std::uint64_t, 2> hash{};
-        for (int look = 0; look < 2; ++look) {
+        for (int sample = 0; sample < 2; ++sample) {
             for (const std::uint32_t offset : {0u, 2u, 4u, 8u, 10u, 12u, 14u})
-                if (look == 1) chip_.read(offset);
+                if (sample == 1) chip_.read(offset);
             const Instant until = kernel_.now() + microseconds(200);
             while (kernel_.run_until(until) == sim::RunEnd::broken) continue;
             Verdict seen;
@@ -295,7 +295,7 @@ class Run {
                 for (std::uint32_t offset = 0; offset < 16; offset += 2) seen.mix(chip_.peek(offset));
                 seen.mix(count_of(a));
             }
-            hash[look] = seen.hash;
+            hash[sample] = seen.hash;
             kernel_.restore(before);
         }
         edges_ = edges;

@@ -68,10 +68,10 @@ class Watched {
         for (const twin::Op& op : program.ops) {
             while (b_.kernel.now() + tick <= op.tick * tick) {
                 b_.advance(tick);
-                look(false);
+                poll(false);
             }
             apply(op);
-            look(op.kind == twin::Op::Kind::write && op.offset == 0 && (op.value & 0x8000) != 0);
+            poll(op.kind == twin::Op::Kind::write && op.offset == 0 && (op.value & 0x8000) != 0);
         }
     }
     std::string problem;
@@ -94,7 +94,7 @@ class Watched {
         }
     }
     int state(std::size_t m, int a) const { return static_cast<int>(*b_.chip.inspect(machines[m].value, a)); }
-    void look(bool reset) {
+    void poll(bool reset) {
         for (std::size_t m = 0; m < std::size(machines); ++m) {
             const MachineInfo& info = declared_machine(machines[m].name);
             for (int a = 0; a < machines[m].instances; ++a) {

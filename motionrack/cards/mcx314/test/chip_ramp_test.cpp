@@ -47,19 +47,19 @@ void expect_equal_looks(std::uint64_t seed, int drive) {
     for (int a = 0; a < 2; ++a) heard.chip.pulses(a).set_edge_listener(&log);
     for (Bench* b : {&quiet, &heard}) d.start(*b);
     std::int64_t gap = random.of({3, 300, 30'000});
-    for (int look = 0; look < 200; ++look) {
+    for (int sample = 0; sample < 200; ++sample) {
         const Duration time = random.between(1, gap) * tick;
         for (Bench* b : {&quiet, &heard}) b->advance(time);
-        if (look == 150)
+        if (sample == 150)
             for (Bench* b : {&quiet, &heard}) b->command(X, 0x26);
-        ASSERT_EQ(quiet.count(0), heard.count(0)) << "look " << look << " of drive " << drive;
-        ASSERT_EQ(quiet.count(1), heard.count(1)) << "look " << look << " of drive " << drive;
+        ASSERT_EQ(quiet.count(0), heard.count(0)) << "look " << sample << " of drive " << drive;
+        ASSERT_EQ(quiet.count(1), heard.count(1)) << "look " << sample << " of drive " << drive;
         for (const char* pin : {"xpp", "xpm", "ypp", "ypm"})
-            ASSERT_EQ(quiet.level(pin), heard.level(pin)) << pin << " at look " << look << " of drive " << drive;
+            ASSERT_EQ(quiet.level(pin), heard.level(pin)) << pin << " at look " << sample << " of drive " << drive;
         if (!random.one_in(5)) continue;
-        ASSERT_EQ(quiet.cv(X), heard.cv(X)) << "look " << look << " of drive " << drive;
-        ASSERT_EQ(quiet.counter(X, 0x13), heard.counter(X, 0x13)) << "look " << look << " of drive " << drive;
-        ASSERT_EQ(quiet.status(X, 1), heard.status(X, 1)) << "look " << look << " of drive " << drive;
+        ASSERT_EQ(quiet.cv(X), heard.cv(X)) << "look " << sample << " of drive " << drive;
+        ASSERT_EQ(quiet.counter(X, 0x13), heard.counter(X, 0x13)) << "look " << sample << " of drive " << drive;
+        ASSERT_EQ(quiet.status(X, 1), heard.status(X, 1)) << "look " << sample << " of drive " << drive;
         ASSERT_EQ(quiet.chip.pulses(0).rate(quiet.kernel.now()), heard.chip.pulses(0).rate(heard.kernel.now()));
     }
 }

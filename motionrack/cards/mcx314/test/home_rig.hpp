@@ -67,12 +67,12 @@ class Cam final : public sim::Device, private sim::PositionListener {
         kernel_.schedule(id_, Instant{0});
     }
     sim::WireId wire() const { return wire_; }
-    void on_scheduled(Instant now) override { look(now); }
+    void on_scheduled(Instant now) override { poll(now); }
 
   private:
-    void crossed(Instant now) override { look(now); }
+    void crossed(Instant now) override { poll(now); }
     void rate_changed(double, double, Instant) override {}
-    void look(Instant now) {
+    void poll(Instant now) {
         const std::int64_t at = rotor_.count(now);
         kernel_.set_wire(wire_, at >= low_ && at <= high_ ? 0 : 1);
         if (at < low_)

@@ -89,7 +89,7 @@ class Maker : private ExtensionActions {
         } else if (roll < 38) {
             rewrite();
         } else if (roll < 68) {
-            look();
+            poll();
         } else if (roll < 74) {
             command(axes(), random_.one_in(3) ? 0x27 : 0x26);
         } else if (roll < 84) {
@@ -232,7 +232,7 @@ class Maker : private ExtensionActions {
                 break;
         }
     }
-    void look() {
+    void poll() {
         const unsigned axis = 1u << random_.between(0, 3);
         switch (random_.between(0, 6)) {
             case 0:

@@ -36,7 +36,7 @@ namespace {
 class Pins {
   public:
     Pins(const Twin& twin, std::vector<Change>& changes) : twin_(twin), changes_(changes) {}
-    void look(std::int64_t half_tick) {
+    void poll(std::int64_t half_tick) {
         for (int a = 0; a < axis_count; ++a) {
             const unsigned now = twin_.outputs(a), before = std::exchange(levels_[a], now);
             // A pulse that comes during the previous one begins with a change to rest.
@@ -88,7 +88,7 @@ Outcome run_on_twin(const Program& program, bool follow) {
         while (twin.now() < tick) {
             twin.tick();
             note_request(2 * twin.now());
-            if (follow) pins.look(2 * twin.now());
+            if (follow) pins.poll(2 * twin.now());
         }
     };
     out.sights.reserve(program.ops.size());
@@ -130,7 +130,7 @@ Outcome run_on_twin(const Program& program, bool follow) {
             for (int a = 0; a < axis_count; ++a) sight.count[a] = twin.count(a), sight.outputs[a] = twin.outputs(a);
         }
         note_request(2 * op.tick + op.between);
-        if (follow && (!wire || op.between)) pins.look(2 * op.tick + op.between);
+        if (follow && (!wire || op.between)) pins.poll(2 * op.tick + op.between);
         out.sights.push_back(sight);
     }
     if (!program.ops.empty()) run_to(program.ops.back().tick);

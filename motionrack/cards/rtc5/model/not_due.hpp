@@ -26,7 +26,7 @@ class NotDue {
     /// Discards the result because the inputs have changed.
     void forget() { until_ = from_; }
     /// `counts`: those of its encoder from `tick` on, at most kernels::block; at `tick` the start is not due.
-    void look(const Start& start, std::int64_t tick, std::int64_t travel, std::span<const std::int32_t> counts) {
+    void update(const Start& start, std::int64_t tick, std::int64_t travel, std::span<const std::int32_t> counts) {
         start_ = start;
         from_ = tick;
         travel_[0] = travel;

@@ -82,7 +82,7 @@ std::int64_t Engine::ticks_to_start(std::int64_t limit) {
     if (inputs_ == nullptr) return limit;
     if (!not_due_.holds(start, state_.tick, e.travel)) {
         load_counts(static_cast<int>(start.encoder), block);
-        not_due_.look(start, state_.tick, e.travel, scratch_->counts[start.encoder]);
+        not_due_.update(start, state_.tick, e.travel, scratch_->counts[start.encoder]);
     }
     return std::min(limit, not_due_.until() - state_.tick);
 }

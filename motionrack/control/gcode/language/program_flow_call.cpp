@@ -115,7 +115,7 @@ void ProgramFlow::enter(const Target& target, std::int32_t program, std::int64_t
 }
 
 bool ProgramFlow::look_for(const std::string& label, bool numbered, Target& target) {
-    const auto look = [&](ProgramSource* source) {
+    const auto open_in = [&](ProgramSource* source) {
         if (!source->index) return false;
         const auto& named = numbered ? source->index->programs : source->index->subs;
         const auto found = named.find(label);
@@ -123,8 +123,8 @@ bool ProgramFlow::look_for(const std::string& label, bool numbered, Target& targ
         target = {source, found->second};
         return true;
     };
-    return look(source_) ||
-           std::any_of(sources_.begin(), sources_.end(), [&](const auto& source) { return look(source.get()); });
+    return open_in(source_) ||
+           std::any_of(sources_.begin(), sources_.end(), [&](const auto& source) { return open_in(source.get()); });
 }
 
 /// Finds a sub or a numbered program in the same text, in a text read before, or in a file.

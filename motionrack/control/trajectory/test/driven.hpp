@@ -74,7 +74,7 @@ class Driven {
             return true;
         }
         const double pass = std::min(seconds, generator.left());
-        for (const double part : {0.005, 0.505}) look(part * pass);
+        for (const double part : {0.005, 0.505}) poll(part * pass);
         generator.advance(pass);
         now += pass;
         return true;
@@ -87,7 +87,7 @@ class Driven {
     TrajectoryPoint last;
 
   private:
-    void look(double seconds) {
+    void poll(double seconds) {
         const MachineLimits limits = machine();
         const TrajectoryPoint state = generator.at(seconds);
         const double gap = now + seconds - at_;

@@ -94,13 +94,13 @@ class TrajectoryChecks {
                     begin +
                     feed.seconds * std::clamp(static_cast<double>(i) / static_cast<double>(looks), away, 1 - away);
                 if (time > until) break;
-                look(kept, view, time, std::max(hair_, looks_ == 0 ? hair_before : 0));
+                poll(kept, view, time, std::max(hair_, looks_ == 0 ? hair_before : 0));
                 if (!fault_.name.empty()) return;
             }
             begin += feed.seconds;
         }
         if (!ends)
-            look(kept, view, until, hair_);
+            poll(kept, view, until, hair_);
         else
             last_ = view.at(until);
         if (ends) check_rest(kept);
@@ -110,7 +110,7 @@ class TrajectoryChecks {
                  fmt::format("{:.9g} s, the bound {:.9g} s, line {}", section.seconds, min_duration, section.line));
     }
 
-    void look(const KeptStretch& kept, SectionSampler& view, double time, double hair) {
+    void poll(const KeptStretch& kept, SectionSampler& view, double time, double hair) {
         if (time < last_time_) return;
         const TrajectoryPoint state = view.at(time);
         const double step = (time - last_time_) * slack + hair;

@@ -158,8 +158,8 @@ static const listing basic = {"basic",
 /* WAITRDY; FNWaitrdy, 2840. */
 static void wait_ready(host* h, const listing* l) {
     const uint64_t from = mr_now_ns(h->rack);
-    unsigned look;
-    for (look = 0; look < l->ready_looks; ++look) {
+    unsigned poll;
+    for (poll = 0; poll < l->ready_looks; ++poll) {
         if (in(h, STAT) & READY) {
             if (mr_now_ns(h->rack) - from > h->max_wait_ns) h->max_wait_ns = mr_now_ns(h->rack) - from;
             return;

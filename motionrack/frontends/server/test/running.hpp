@@ -32,7 +32,7 @@ class Running {
         settings.factor = 20;
         settings.version = "0.0.0";
         settings.boot = "b007";
-        settings.machine.on_status = [this](const operate::Status& status) { look(status); };
+        settings.machine.on_status = [this](const operate::Status& status) { observe(status); };
         settings.machine.jog_lease = jog_lease;
         settings.door.on_start_code = [](const std::string&) {};
         settings.page = std::move(page);
@@ -109,7 +109,7 @@ class Running {
     std::vector<AuditEntry> audit;
 
   private:
-    void look(const operate::Status& status) {
+    void observe(const operate::Status& status) {
         if (!status.program_runs) return;
         const std::lock_guard<std::mutex> alone(lock);
         if (path_.empty()) begun_ = status.at;
