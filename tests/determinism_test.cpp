@@ -86,7 +86,7 @@ TEST(Determinism, WatchingEveryWireDoesNotDisturb) {
     EXPECT_TRUE(watched.outcome.ended);
     EXPECT_EQ(unseen.outcome.time, watched.outcome.time);
     EXPECT_EQ(unseen.outcome.chip_segments, watched.outcome.chip_segments);
-    EXPECT_EQ(unseen.outcome.worst.mm, watched.outcome.worst.mm);
+    EXPECT_EQ(unseen.outcome.max_deviation.mm, watched.outcome.max_deviation.mm);
     for (std::size_t i = 0; i < unseen.outcome.axes.size(); ++i) {
         const AxisOutcome &a = unseen.outcome.axes[i], &b = watched.outcome.axes[i];
         EXPECT_EQ(a.pulses_sent, b.pulses_sent) << i;

@@ -77,7 +77,7 @@ TEST(Journey, AStopInAnArcComesToRestOnTheArc) {
         EXPECT_EQ(axis.pulses_net, axis.pulse_position - axis.pulse_start) << axis.index;
         EXPECT_EQ(axis.encoder_counts, axis.expected_counts) << axis.index;
     }
-    EXPECT_LE(outcome.worst.mm, 3.0 / 640);
+    EXPECT_LE(outcome.max_deviation.mm, 3.0 / 640);
 }
 
 /// Applies the log to the card, up to `until`.
@@ -144,7 +144,7 @@ TEST(Journey, AHundredThousandShortLinesEndExactly) {
     EXPECT_EQ(outcome.run.lines, count + 4);
     EXPECT_GE(outcome.run.plan.moves, count);
     EXPECT_TRUE(outcome.position_valid);
-    EXPECT_LE(outcome.worst.mm, 3.0 / 640);
+    EXPECT_LE(outcome.max_deviation.mm, 3.0 / 640);
     for (const AxisOutcome& axis : outcome.axes) {
         EXPECT_EQ(axis.pulses_net, 0) << axis.index;
         EXPECT_EQ(axis.encoder_counts, axis.expected_counts) << axis.index;

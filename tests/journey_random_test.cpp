@@ -32,8 +32,8 @@ double drive_random(const std::string& profile, test::ProgramSize size) {
         const Done done = drive(config, program.text);
         // Rounding merges two chords or lengthens one: the next one then has the corners of both.
         expect_exact(done.outcome, size == test::ProgramSize::tiny ? 0 : program.chords ? 1.6 : 1.15);
-        EXPECT_LE(done.outcome.worst.mm, max_deviation(config, program, done.outcome))
-            << "line " << done.outcome.worst.line;
+        EXPECT_LE(done.outcome.max_deviation.mm, max_deviation(config, program, done.outcome))
+            << "line " << done.outcome.max_deviation.line;
         for (std::size_t i = 0; i < done.outcome.axes.size(); ++i)
             EXPECT_NEAR(done.outcome.axes[i].actual_end, program.end[i], 0.51 / config.axes[i].pulses_per_unit()) << i;
         ++driven;
@@ -77,8 +77,8 @@ TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLi
         const Done done =
             drive(config, program.text, &stop, [&](const Rack& rack) { stop = to_seconds(rack.kernel().now()) >= at; });
         expect_limits(done.outcome, program.chords ? 1.6 : 1.15);
-        EXPECT_LE(done.outcome.worst.mm, max_deviation(config, program, done.outcome))
-            << "line " << done.outcome.worst.line;
+        EXPECT_LE(done.outcome.max_deviation.mm, max_deviation(config, program, done.outcome))
+            << "line " << done.outcome.max_deviation.line;
         if (done.outcome.ended) continue;
         EXPECT_EQ(done.outcome.ended.error().kind, ErrorKind::stopped) << done.outcome.ended.error().text();
         // The next junction in the chip's queue, and the longest deceleration from the maximum velocity.

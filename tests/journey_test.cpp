@@ -14,7 +14,7 @@ TEST(Journey, FourAxesTogetherEndExactly) {
                             "Y100 Z35 I10 J0 A180 P2\nM2\n");
     expect_exact(done.outcome, 0);
     EXPECT_DOUBLE_EQ(done.outcome.axes[3].actual_end, 180.0);
-    EXPECT_LE(done.outcome.worst.mm, 0.01);
+    EXPECT_LE(done.outcome.max_deviation.mm, 0.01);
 }
 
 TEST(Journey, ASteeredAxisThatIsThenInterpolatedEndsExactly) {
@@ -38,7 +38,7 @@ TEST(Journey, AHelixBeforeACornerSlowsDownForIt) {
                             "G21 G90 G64 P0.005\nG0 X150 Y100 Z40\nG2 X120 Y110 Z30 R40 F4000\nG1 X150 Y100 F4000\nG3 "
                             "X140 Y90 Z35 R20\nG1 X160\nM2\n");
     expect_exact(done.outcome, 0);
-    EXPECT_LE(done.outcome.worst.mm, 0.007);
+    EXPECT_LE(done.outcome.max_deviation.mm, 0.007);
 }
 
 TEST(Journey, TheSameProgramGivesTheSameHistory) {
@@ -58,7 +58,7 @@ TEST(Journey, ManyShortLinesRunAtFullFeed) {
     }
     const Done done = drive(router(), program);
     expect_exact(done.outcome, 0);
-    EXPECT_LE(done.outcome.worst.mm, 0.01);
+    EXPECT_LE(done.outcome.max_deviation.mm, 0.01);
     EXPECT_GT(done.outcome.path_mm / to_seconds(done.outcome.time), 40.0) << "mm/s of 50";
 }
 

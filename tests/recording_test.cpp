@@ -136,7 +136,7 @@ TEST_F(RecordedRun, HasThePulsesOfTheWavesTickForTick) {
 TEST_F(RecordedRun, IsNotDisturbedByItsRecording) {
     const JobOutcome seen = record(request_for(program), "a.h5"), unseen = record(request_for(program), "");
     EXPECT_EQ(seen.time, unseen.time);
-    EXPECT_EQ(seen.worst.mm, unseen.worst.mm);
+    EXPECT_EQ(seen.max_deviation.mm, unseen.max_deviation.mm);
     for (std::size_t i = 0; i < seen.axes.size(); ++i) {
         EXPECT_EQ(seen.axes[i].pulses_sent, unseen.axes[i].pulses_sent);
         EXPECT_EQ(seen.axes[i].actual_end, unseen.axes[i].actual_end);

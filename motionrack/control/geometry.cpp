@@ -209,18 +209,18 @@ Point tangent_at(const Geometry& path, double length) {
 }
 
 Point max_tangent_components(const Geometry& path) {
-    Point worst;
+    Point components;
     for (int i = 0; i < axis_count; ++i)
-        worst[i] = std::max(std::fabs(path.tangent_in[i]), std::fabs(path.tangent_out[i]));
-    if (path.shape != PathShape::arc) return worst;
+        components[i] = std::max(std::fabs(path.tangent_in[i]), std::fabs(path.tangent_out[i]));
+    if (path.shape != PathShape::arc) return components;
     // The tangent component of an axis reaches 1 where the other one passes zero; half a turn contains such a point for
     // both.
     const double full = plane_fraction(path);
     const bool half_turn = std::fabs(path.sweep) >= pi;
     const auto passes_zero = [&path](int axis) { return (path.tangent_in[axis] > 0) != (path.tangent_out[axis] > 0); };
-    if (half_turn || passes_zero(path.second)) worst[path.first] = full;
-    if (half_turn || passes_zero(path.first)) worst[path.second] = full;
-    return worst;
+    if (half_turn || passes_zero(path.second)) components[path.first] = full;
+    if (half_turn || passes_zero(path.first)) components[path.second] = full;
+    return components;
 }
 
 double plane_fraction(const Geometry& path) {

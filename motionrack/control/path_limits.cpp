@@ -59,13 +59,13 @@ int PathLimits::missing_axis(const Geometry& path) const {
 
 AlongPathLimits PathLimits::along(const Geometry& path, const Move& move) const {
     const bool arc = path.shape == PathShape::arc;
-    const Point worst = max_tangent_components(path);
+    const Point components = max_tangent_components(path);
     double per_velocity = 0;
     double per_accel = 0;
     for (int i = 0; i < axis_count; ++i) {
-        per_velocity = std::max(per_velocity, worst[i] * per_velocity_[i]);
+        per_velocity = std::max(per_velocity, components[i] * per_velocity_[i]);
         const bool in_plane = arc && (i == path.first || i == path.second);
-        if (!in_plane) per_accel = std::max(per_accel, worst[i] * per_accel_[i]);
+        if (!in_plane) per_accel = std::max(per_accel, components[i] * per_accel_[i]);
     }
     AlongPathLimits found;
     found.velocity = 1 / per_velocity;
@@ -87,9 +87,9 @@ AlongPathLimits PathLimits::along(const Geometry& path, const Move& move) const 
         double per_jerk = 0;
         bool all = true;
         for (int i = 0; i < axis_count; ++i) {
-            if (worst[i] == 0) continue;
+            if (components[i] == 0) continue;
             all = all && per_jerk_[i] > 0;
-            per_jerk = std::max(per_jerk, worst[i] * per_jerk_[i]);
+            per_jerk = std::max(per_jerk, components[i] * per_jerk_[i]);
         }
         if (all) found.jerk = 1 / per_jerk;
     }

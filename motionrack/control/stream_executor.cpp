@@ -108,10 +108,10 @@ void StreamExecutor::begin_cut(const CanonCall& step, bool by_hand) {
     if (on_move_) on_move_(cut.step.move, read_to_);
     if (cut.path.shape == PathShape::nothing) return;
     const double wanted = limits_.along(cut.path, step.move).velocity * settings_.slice_s;
-    const Point worst = max_tangent_components(cut.path);
+    const Point components = max_tangent_components(cut.path);
     double pulses = 0;  // pulses of the fastest axis per unit of length
-    for (std::size_t i = 0; i < worst.size(); ++i)
-        pulses = std::max(pulses, worst[i] * settings_.gcode.limits[i].pulses_per_unit);
+    for (std::size_t i = 0; i < components.size(); ++i)
+        pulses = std::max(pulses, components[i] * settings_.gcode.limits[i].pulses_per_unit);
     const double pieces = std::min(cut.path.length / wanted, cut.path.length * pulses / min_pulses);
     // Point-to-point axes would stop at the end of each slice.
     if (!interpolator_ && !settings_.gcode.point_to_point)

@@ -38,7 +38,7 @@ bool FramePublisher::put(const Frame& frame) {
     if (settings_.progress) settings_.progress(publisher_.sent(), monotonic_now() - due);
     outcome_.late = pacer_.late();
     outcome_.slips = pacer_.slips();
-    outcome_.worst = pacer_.worst();
+    outcome_.max_lateness = pacer_.max_lateness();
     return settings_.max_frames == 0 || frames_ < settings_.max_frames;
 }
 

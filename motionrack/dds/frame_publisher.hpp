@@ -29,7 +29,7 @@ struct PublishingSettings {
 struct Published {
     std::uint64_t late = 0;   ///< frames sent more than a pace after their due time
     std::uint64_t slips = 0;  ///< number of times the schedule restarted, more than a second late
-    Duration worst{};         ///< maximum lateness
+    Duration max_lateness{};  ///< maximum lateness
     bool stopped = false;
 };
 

@@ -18,7 +18,7 @@ Instant FramePacer::due(Instant frame, Instant now) {
                               : Duration{static_cast<std::int64_t>(static_cast<double>(elapsed.count()) / time_scale_)};
     const Instant due = first_due_ + real;
     const Duration behind = now - due;
-    worst_ = std::max(worst_, behind);
+    max_lateness_ = std::max(max_lateness_, behind);
     if (behind > pace_) ++late_;
     if (behind <= max_behind) return due;
     ++slips_;

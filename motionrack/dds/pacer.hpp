@@ -21,11 +21,11 @@ class FramePacer {
 
     std::uint64_t late() const { return late_; }
     std::uint64_t slips() const { return slips_; }
-    Duration worst() const { return worst_; }  ///< lateness of the latest frame
+    Duration max_lateness() const { return max_lateness_; }  ///< lateness of the latest frame
 
   private:
     double time_scale_;
-    Duration pace_, worst_{};
+    Duration pace_, max_lateness_{};
     bool begun_ = false;
     Instant first_frame_{}, first_due_{};
     std::uint64_t late_ = 0, slips_ = 0;

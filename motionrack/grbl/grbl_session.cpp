@@ -39,7 +39,7 @@ void GrblSession::receive(std::string_view bytes) {
             act(*what);
             continue;
         }
-        if (intake_.room() == 0) work();  // a long line without an end so far
+        if (intake_.free_bytes() == 0) work();  // a long line without an end so far
         intake_.put(byte);
         if (c == '\n' || c == '\r') work();
     }

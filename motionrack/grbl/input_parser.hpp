@@ -87,7 +87,7 @@ class InputParser {
     /// Reads on to the end of the present line; returns nothing if the end has not arrived. Each CR and each LF ends a
     /// line.
     std::optional<Line> next();
-    std::size_t room() const { return max_waiting - waiting_.size(); }
+    std::size_t free_bytes() const { return max_waiting - waiting_.size(); }
     void clear() { *this = InputParser(); }
 
   private:

@@ -173,16 +173,16 @@ bool Journal::end_work() {
 }
 
 void Journal::write(Instant at, std::string kind, std::string text, std::string data, Done done) {
-    bool room = true, closed = false;
+    bool is_queued = true, closed = false;
     {
         const std::lock_guard<std::mutex> guard(alone_);
         closed = quit_;
-        room = waiting_.size() < max_waiting && !closed;
-        if (room)
+        is_queued = waiting_.size() < max_waiting && !closed;
+        if (is_queued)
             waiting_.push_back(
                 {{0, run_, utc_ms(), at, std::move(kind), std::move(text), std::move(data)}, std::move(done)});
     }
-    if (room) return wake_up_.notify_one();
+    if (is_queued) return wake_up_.notify_one();
     if (!closed) failed(fmt::format("is delayed: {} entries wait for the disk", max_waiting));
     if (!done) return;  // NOLINT(bugprone-use-after-move): moved only if the queue had space
     done(fail(ErrorKind::io,

@@ -78,14 +78,14 @@ Result<std::unique_ptr<MarkingHost>> MarkingHost::make(const MarkingJob& job, co
 }
 
 Result<void> put_all(Engine& card, int list, const std::vector<rtc5::Command>& commands) {
-    const std::int64_t room = list == 1 ? card.settings().list1 : card.settings().list2;
+    const std::int64_t capacity = list == 1 ? card.settings().list1 : card.settings().list2;
     std::int64_t positions = 0;
     for (const rtc5::Command& command : commands) positions += rtc5::info(command.op).positions;
-    if (positions > room)
+    if (positions > capacity)
         return fail(ErrorKind::refused,
                     fmt::format("The drawing needs {} places of a list; the card's list {} has {}. "
                                 "Nothing was marked; mark a smaller drawing, or use a larger tolerance.",
-                                positions, list, room));
+                                positions, list, capacity));
     MOTIONRACK_CHECK(card.set_start_list(static_cast<std::uint32_t>(list)));
     for (const rtc5::Command& command : commands) MOTIONRACK_CHECK(card.put(command));
     return {};

@@ -14,9 +14,9 @@ using Out = std::back_insert_iterator<std::string>;
 
 void row(Out to, const char* name, const Marked& m) {
     fmt::format_to(to, "{:<20} {:>10.4f} {:>10.4f} {:>18} {:>10.3f} {:>10.3f} {:>9.4f} {:>6.1f} {:>9.3f}\n", name,
-                   m.deviation.worst_mm, m.deviation.rms_mm,
-                   fmt::format("{:.3f}, {:.3f}", m.deviation.worst_at.x, m.deviation.worst_at.y),
-                   m.deviation.missing_mm, m.marked_mm, m.seconds, m.duty * 100, m.energy_j);
+                   m.deviation.max_mm, m.deviation.rms_mm,
+                   fmt::format("{:.3f}, {:.3f}", m.deviation.max_at.x, m.deviation.max_at.y), m.deviation.missing_mm,
+                   m.marked_mm, m.seconds, m.duty * 100, m.energy_j);
 }
 
 void overflows(Out to, const Marked& m) {
@@ -54,7 +54,7 @@ void fit(Out to, const MarkingJob& job, const MarkingOutcome& out) {
 
 }  // namespace
 
-FieldMargin room_of(const MarkingOutcome& out, const Marked& marked) {
+FieldMargin margin_of(const MarkingOutcome& out, const Marked& marked) {
     const Box &field = out.field, &reach = marked.reach;
     return std::min(
         {FieldMargin{reach.low.x - field.low.x, "left"}, FieldMargin{field.high.x - reach.high.x, "right"},
@@ -64,13 +64,13 @@ FieldMargin room_of(const MarkingOutcome& out, const Marked& marked) {
 
 std::vector<std::string> warnings_of(const MarkingOutcome& out) {
     std::vector<std::string> warnings;
-    const FieldMargin room = room_of(out, out.on);
-    const double wanted = min_room_part * (out.field.high.x - out.field.low.x);
-    if (!out.waits && room.mm >= 0 && room.mm < wanted)
+    const FieldMargin margin = margin_of(out, out.on);
+    const double wanted = min_margin_share * (out.field.high.x - out.field.low.x);
+    if (!out.waits && margin.mm >= 0 && margin.mm < wanted)
         warnings.push_back(
             fmt::format("only {:.3f} mm are left at the {} edge of the field, less than {:.3g} mm ({:g} % of its "
                         "width): a slightly higher velocity or a slightly later start overflows the correction",
-                        room.mm, room.edge, wanted, min_room_part * 100));
+                        margin.mm, margin.edge, wanted, min_margin_share * 100));
     if (!out.in_field())
         warnings.push_back(
             "a part of the drawing is outside the field, and was marked on its edge; move the drawing or make it "
@@ -90,8 +90,8 @@ std::string outcome_text(const MarkingJob& job, const MarkingOutcome& out) {
     if (out.off) row(to, "without correction", *out.off);
     text += parts_text(job, out.on);
     overflows(to, out.on);
-    const FieldMargin room = room_of(out, out.on);
-    if (room.mm >= 0) fmt::format_to(to, "margin: {:.3f} mm to the {} edge of the field\n", room.mm, room.edge);
+    const FieldMargin margin = margin_of(out, out.on);
+    if (margin.mm >= 0) fmt::format_to(to, "margin: {:.3f} mm to the {} edge of the field\n", margin.mm, margin.edge);
     if (!out.drawing_in_field)
         fmt::format_to(to, "A part of the drawing is outside the field at the start position of the part.\n");
     if (out.on.lost_points > 0)

@@ -57,7 +57,7 @@ parts::Deviation together(const std::vector<PartMarked>& all) {
     double length = 0, squares = 0;
     for (const PartMarked& part : all) {
         const parts::Deviation& d = part.deviation;
-        if (d.worst_mm > out.worst_mm) out.worst_mm = d.worst_mm, out.worst_at = d.worst_at, out.worst_s = d.worst_s;
+        if (d.max_mm > out.max_mm) out.max_mm = d.max_mm, out.max_at = d.max_at, out.max_s = d.max_s;
         out.missing_mm += d.missing_mm;
         length += part.marked_mm;
         squares += d.rms_mm * d.rms_mm * part.marked_mm;

@@ -45,7 +45,7 @@ std::string parts_text(const MarkingJob& job, const Marked& marked) {
             ++hidden;
         } else if (part.fate == PartOutcome::marked) {
             fmt::format_to(to, "{:>6} {:>8} {:>11.5f} {:>11.5f} {:>10.4f} {:>10.4f} {:>10.3f}\n", i + 1, part.number,
-                           part.begin_s, part.end_s, part.deviation.worst_mm, part.deviation.rms_mm,
+                           part.begin_s, part.end_s, part.deviation.max_mm, part.deviation.rms_mm,
                            part.deviation.missing_mm);
         } else {
             text += lost_text(part, i + 1);

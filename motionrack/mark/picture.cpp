@@ -84,14 +84,14 @@ std::vector<StrokePoint> drawings_of(const Prepared& prepared, const Marked& mar
     });
 }
 /// Part with the maximum deviation.
-std::size_t worst_part(const Marked& marked) {
-    const auto worst = std::max_element(
+std::size_t max_deviation_part(const Marked& marked) {
+    const auto part_of_max = std::max_element(
         marked.parts.begin(), marked.parts.end(),
-        [](const PartMarked& a, const PartMarked& b) { return a.deviation.worst_mm < b.deviation.worst_mm; });
-    return static_cast<std::size_t>(worst - marked.parts.begin());
+        [](const PartMarked& a, const PartMarked& b) { return a.deviation.max_mm < b.deviation.max_mm; });
+    return static_cast<std::size_t>(part_of_max - marked.parts.begin());
 }
 std::string of_part(const Marked& marked) {
-    return marked.parts.size() > 1 ? fmt::format(" of part {}", worst_part(marked) + 1) : std::string();
+    return marked.parts.size() > 1 ? fmt::format(" of part {}", max_deviation_part(marked) + 1) : std::string();
 }
 
 /// Shared data of all pictures of a job.
@@ -146,15 +146,15 @@ Part part_of(const Scene& scene, const Marked* marked, const char* title, const 
         part.body += plot.strokes(scene.drawing, "drawn");
     } else {
         const parts::Deviation& d = marked->deviation;
-        part.words = {fmt::format("worst {} at {:.3f}, {:.3f} mm{}; rms {}", shown_length(d.worst_mm), d.worst_at.x,
-                                  d.worst_at.y, of_part(*marked), shown_length(d.rms_mm)),
+        part.words = {fmt::format("worst {} at {:.3f}, {:.3f} mm{}; rms {}", shown_length(d.max_mm), d.max_at.x,
+                                  d.max_at.y, of_part(*marked), shown_length(d.rms_mm)),
                       d.missing_mm > 0 ? fmt::format("{} of the drawing not marked", shown_length(d.missing_mm))
                                        : "all of the drawing marked"};
         part.body += plot.strokes(marks_of(*marked), style);
         part.body +=
             crosses(plot, marked->overflows, [&](const Overflow& o) { return marked->parts[o.part_no].shown(o.part); });
-        const std::size_t worst = worst_part(*marked);
-        if (d.worst_mm > 0 && worst < max_parts) part.body += plot.ring(marked->parts[worst].shown(d.worst_at));
+        const std::size_t part_of_max = max_deviation_part(*marked);
+        if (d.max_mm > 0 && part_of_max < max_parts) part.body += plot.ring(marked->parts[part_of_max].shown(d.max_at));
     }
     part.body += plot.scale_bar();
     return part;
@@ -166,10 +166,10 @@ Part field_of(const Scene& scene) {
     const MarkingOutcome& out = scene.out;
     part.title = "In the field";
     part.height = 300;
-    const FieldMargin room = room_of(out, out.on);
+    const FieldMargin margin = margin_of(out, out.on);
     part.words = {fmt::format("{:.1f} mm wide and high", out.field.high.x - out.field.low.x),
-                  room.mm >= 0 ? fmt::format("{} left at the {} edge", shown_length(room.mm), room.edge)
-                               : fmt::format("{} too far over the {} edge", shown_length(-room.mm), room.edge)};
+                  margin.mm >= 0 ? fmt::format("{} left at the {} edge", shown_length(margin.mm), margin.edge)
+                                 : fmt::format("{} too far over the {} edge", shown_length(-margin.mm), margin.edge)};
     const Plot plot(joined(out.field, out.on.reach), part.width, part.height, 16);
     std::vector<StrokePoint> marks, jumps;
     for (std::size_t i = 1; i < out.on.course.size(); ++i) {
@@ -190,20 +190,20 @@ Part field_of(const Scene& scene) {
 Part worst_of(const Scene& scene, const Marked& marked, const char* title, const char* style) {
     Part part;
     const parts::Deviation& d = marked.deviation;
-    const double reach = std::max(d.worst_mm * 2, 2e-4);
-    if (d.worst_mm <= 0 || reach > size_of(scene.box) / 8) return part;
-    const PartMarked& worst = marked.parts[worst_part(marked)];
-    const std::vector<parts::DrawnSegment>& segments = scene.prepared.of(worst.drawing).segments;
-    const Spot on = nearest_point(segments, d.worst_at), middle{(on.x + d.worst_at.x) / 2, (on.y + d.worst_at.y) / 2};
+    const double reach = std::max(d.max_mm * 2, 2e-4);
+    if (d.max_mm <= 0 || reach > size_of(scene.box) / 8) return part;
+    const PartMarked& part_of_max = marked.parts[max_deviation_part(marked)];
+    const std::vector<parts::DrawnSegment>& segments = scene.prepared.of(part_of_max.drawing).segments;
+    const Spot on = nearest_point(segments, d.max_at), middle{(on.x + d.max_at.x) / 2, (on.y + d.max_at.y) / 2};
     part.height = 300;
     const Plot plot(grown({middle, middle}, reach), part.width, part.height);
     part.title = title;
-    part.words = {fmt::format("{} off at {:.3f}, {:.3f} mm{}", shown_length(d.worst_mm), d.worst_at.x, d.worst_at.y,
-                              of_part(marked)),
-                  fmt::format("marked at {:.5f} s", d.worst_s)};
+    part.words = {
+        fmt::format("{} off at {:.3f}, {:.3f} mm{}", shown_length(d.max_mm), d.max_at.x, d.max_at.y, of_part(marked)),
+        fmt::format("marked at {:.5f} s", d.max_s)};
     part.body = plot.strokes(nodes_of(std::span<const parts::DrawnSegment>(segments)), "planned") +
-                plot.strokes(marks_of(marked, worst), style) + plot.line(on, d.worst_at, "off-by") +
-                plot.ring(d.worst_at) + plot.scale_bar();
+                plot.strokes(marks_of(marked, part_of_max), style) + plot.line(on, d.max_at, "off-by") +
+                plot.ring(d.max_at) + plot.scale_bar();
     return part;
 }
 

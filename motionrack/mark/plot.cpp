@@ -22,9 +22,9 @@ constexpr double min_width_mm = 1e-4;
 bool clip(const Box& box, Spot& a, Spot& b) {
     double begin = 0, end = 1;
     const Spot way{b.x - a.x, b.y - a.y};
-    const auto side = [&](double along, double room) {
-        if (along == 0) return room >= 0;
-        const double at = room / along;
+    const auto side = [&](double along, double distance) {
+        if (along == 0) return distance >= 0;
+        const double at = distance / along;
         if (along < 0)
             begin = std::max(begin, at);
         else

@@ -18,8 +18,8 @@ struct FieldMargin {
     double mm = 0;          ///< negative: outside the field by this distance
     const char* edge = "";  ///< "left", "right", "lower" or "upper"
 };
-FieldMargin room_of(const MarkingOutcome& outcome, const Marked& marked);
-inline constexpr double min_room_part = 0.05;  ///< relative to the field width: a smaller margin gives a warning
+FieldMargin margin_of(const MarkingOutcome& outcome, const Marked& marked);
+inline constexpr double min_margin_share = 0.05;  ///< relative to the field width: a smaller margin gives a warning
 /// Warnings about small margins.
 std::vector<std::string> warnings_of(const MarkingOutcome& outcome);
 

@@ -18,7 +18,7 @@ std::string verdict_text(const MarkingOutcome& out) {
     if (out.on.parts_lost() > 0)
         return fmt::format("{} of {} parts were not marked, because their starts were lost.", out.on.parts_lost(),
                            out.on.parts.size());
-    std::string text = fmt::format("Marked within {} of the drawing", shown_length(out.on.deviation.worst_mm));
+    std::string text = fmt::format("Marked within {} of the drawing", shown_length(out.on.deviation.max_mm));
     if (out.on.deviation.missing_mm > 0)
         text += fmt::format("; {} of it were not marked", shown_length(out.on.deviation.missing_mm));
     return text + ".";
@@ -27,7 +27,7 @@ std::string verdict_text(const MarkingOutcome& out) {
 std::vector<std::string> row_of(const char* name, const Marked& m) {
     const parts::Deviation& d = m.deviation;
     return {name,
-            fmt::format("{:.4f} mm at {:.3f}, {:.3f} mm", d.worst_mm, d.worst_at.x, d.worst_at.y),
+            fmt::format("{:.4f} mm at {:.3f}, {:.3f} mm", d.max_mm, d.max_at.x, d.max_at.y),
             fmt::format("{:.4f} mm", d.rms_mm),
             fmt::format("{:.3f} mm", d.missing_mm),
             fmt::format("{:.3f} mm", m.marked_mm),
@@ -67,7 +67,7 @@ trace::ReportTable parts_table(const Marked& m) {
         const PartMarked& p = m.parts[i];
         t.rows.push_back({fmt::format("{}", i + 1), p.fate == PartOutcome::marked ? fmt::format("{}", p.number) : "",
                           name_of(p.fate), fmt::format("{:.5f} s", p.begin_s), fmt::format("{:.5f} s", p.end_s),
-                          fmt::format("{:.4f} mm", p.deviation.worst_mm), fmt::format("{:.4f} mm", p.deviation.rms_mm),
+                          fmt::format("{:.4f} mm", p.deviation.max_mm), fmt::format("{:.4f} mm", p.deviation.rms_mm),
                           fmt::format("{:.3f} mm", p.deviation.missing_mm)});
     }
     return t;
@@ -77,13 +77,13 @@ void add_numbers(const MarkingJob& job, const MarkingOutcome& out, trace::Report
     const auto add = [&](const char* label, std::string value, const char* unit) {
         data.numbers.push_back({label, std::move(value), unit});
     };
-    add("Max deviation", fmt::format("{:.4f}", out.on.deviation.worst_mm), "mm");
-    if (out.off) add("The marks without correction", fmt::format("{:.4f}", out.off->deviation.worst_mm), "mm");
+    add("Max deviation", fmt::format("{:.4f}", out.on.deviation.max_mm), "mm");
+    if (out.off) add("The marks without correction", fmt::format("{:.4f}", out.off->deviation.max_mm), "mm");
     add("RMS deviation", fmt::format("{:.4f}", out.on.deviation.rms_mm), "mm");
     add("Time", fmt::format("{:.4f}", out.on.seconds), "s");
     add("Laser on", fmt::format("{:.1f}", out.on.duty * 100), "%");
     add("Energy", fmt::format("{:.3f}", out.on.energy_j), "J");
-    add("Minimum margin in the field", fmt::format("{:.2f}", room_of(out, out.on).mm), "mm");
+    add("Minimum margin in the field", fmt::format("{:.2f}", margin_of(out, out.on).mm), "mm");
     if (!out.fits_factor) return;
     if (job.belt.profile.empty() && !out.fits_any)
         add("It just fits at", fmt::format("{:.5g}", *out.fits_factor * job.belt.velocity),

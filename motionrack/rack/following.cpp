@@ -138,8 +138,8 @@ void FollowingWatch::poll(Instant now) {
         ErrorState& own = state_.axes[i];
         const double off = std::fabs(error(i, now));
         if (watched.warning > 0 && off > watched.warning) {
-            if (own.worst == 0) own.warned_at = now;
-            own.worst = std::max(own.worst, off);
+            if (own.max_error == 0) own.warned_at = now;
+            own.max_error = std::max(own.max_error, off);
         }
         if (watched.alarm > 0 && off > watched.alarm && own.excess == 0) {
             own.excess = off;
@@ -154,12 +154,12 @@ std::vector<FollowingWatch::Warning> FollowingWatch::take_warnings() {
     std::vector<Warning> out;
     for (std::size_t i = 0; i < watched_.size(); ++i) {
         ErrorState& own = state_.axes[i];
-        if (own.worst == 0 || own.excess != 0 || std::exchange(own.reported, 1) != 0) continue;
+        if (own.max_error == 0 || own.excess != 0 || std::exchange(own.reported, 1) != 0) continue;
         const RackAxis& axis = rack_.axes()[watched_[i].axis].config;
         out.push_back({watched_[i].axis, own.warned_at,
                        fmt::format("the following error of {} was {:.3f} {}, above the warning limit of {:g} {}; check "
                                    "its motor, its load and its encoder",
-                                   axis.letter, own.worst / axis.counts_per_unit(), axis.unit(),
+                                   axis.letter, own.max_error / axis.counts_per_unit(), axis.unit(),
                                    axis.following_warning(), axis.unit())});
     }
     return out;

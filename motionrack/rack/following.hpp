@@ -71,7 +71,7 @@ class FollowingWatch final : public sim::Device {
     struct ErrorState {
         double origin = 0;         ///< error at the start of supervision
         std::int64_t counted = 0;  ///< at the card's inputs
-        double worst = 0;          ///< error above the warning limit; 0: below
+        double max_error = 0;      ///< error above the warning limit; 0: below
         double excess = 0;         ///< error above the alarm limit; 0: below
         double velocity = 0;       ///< model velocity of a servo
         double behind = 0;         ///< model following error of a servo

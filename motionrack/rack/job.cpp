@@ -209,7 +209,7 @@ JobOutcome Job::run() {
     rack_.on_slice(slice, {});
 
     out.path_mm = out.run.plan.path_mm;
-    out.worst = monitor_->worst();
+    out.max_deviation = monitor_->max_deviation();
     out.chip_segments = rack_.axes().front().card->segments();
     out.events = rack_.kernel().events() - events_before;
     out.trace_hash = rack_.kernel().trace_hash();

@@ -70,7 +70,7 @@ struct JobOutcome {
     Duration time{};     ///< duration in virtual time
     double path_mm = 0;  ///< planned XYZ path length
     std::vector<AxisOutcome> axes;
-    PathDeviation worst;
+    PathDeviation max_deviation;
     double tolerance_mm = 0;  ///< largest deviation that the program allows on its path
     std::vector<JobWarning> warnings;
     std::int64_t chip_segments = 0;

@@ -205,7 +205,7 @@ std::vector<trace::OutcomeField> facts_of(const JobOutcome& outcome) {
     add("chip_segments", outcome.chip_segments);
     add("trace_hash", fmt::format("{:016x}", outcome.trace_hash));
     add("position_valid", outcome.position_valid ? "yes" : "no");
-    add("max_deviation_mm", outcome.worst.mm);
+    add("max_deviation_mm", outcome.max_deviation.mm);
     add("pulse_positions", of_axes(outcome, &AxisOutcome::pulse_position));
     add("encoder_counts", of_axes(outcome, &AxisOutcome::encoder_counts));
     add("actual_ends", of_axes(outcome, &AxisOutcome::actual_end));

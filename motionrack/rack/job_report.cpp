@@ -116,7 +116,7 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     data.numbers = {{"Time of the job", fmt::format("{:.3f}", to_seconds(outcome.time)), "s"},
                     {"Path", fmt::format("{:.1f}", outcome.path_mm), "mm"},
                     {"Moves", fmt::format("{}", moves_of(rack.config(), outcome)), ""},
-                    {"Max deviation", fmt::format("{:.4f}", outcome.worst.mm), "mm"}};
+                    {"Max deviation", fmt::format("{:.4f}", outcome.max_deviation.mm), "mm"}};
     if (!rack.config().point_to_point())
         data.numbers.push_back({"Chip segments", fmt::format("{}", outcome.chip_segments), ""});
     add_axes(data, job, outcome);
@@ -131,9 +131,10 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     for (const control::PlannedMove& planned : job.planned())
         if (data.planned.size() < max_segments && planned.move.kind != control::MoveKind::dwell)
             data.planned.push_back(path_segment(planned.move, planned.start));
-    if (outcome.worst.mm > 0)
-        data.worst = trace::ReportMaxDeviation{outcome.worst.mm, to_seconds(outcome.worst.at - began),
-                                               outcome.worst.line, outcome.worst.position};
+    if (outcome.max_deviation.mm > 0)
+        data.max_deviation =
+            trace::ReportMaxDeviation{outcome.max_deviation.mm, to_seconds(outcome.max_deviation.at - began),
+                                      outcome.max_deviation.line, outcome.max_deviation.position};
     if (!outcome.ended && !samples.empty())
         data.stop = trace::ReportStop{data.seconds.back(), outcome.ended.error().location.line, data.driven.back(),
                                       outcome.ended.error().message};
@@ -172,9 +173,9 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
                        outcome.run.plan.seconds, count_noun(moves_of(config, outcome), "move"),
                        count_noun(outcome.run.plan.dwells, "dwell"), count_noun(outcome.run.plan.stops, "stop"));
     out += fmt::format("  path        {:.3f} mm, max deviation from the program {:.4f} mm", outcome.path_mm,
-                       outcome.worst.mm);
-    if (outcome.worst.line > 0)
-        out += fmt::format(" in line {} at {:.3f} s", outcome.worst.line, to_seconds(outcome.worst.at));
+                       outcome.max_deviation.mm);
+    if (outcome.max_deviation.line > 0)
+        out += fmt::format(" in line {} at {:.3f} s", outcome.max_deviation.line, to_seconds(outcome.max_deviation.at));
     if (outcome.tolerance_mm > 0) out += fmt::format(" (tolerance {:.4f} mm)", outcome.tolerance_mm);
     for (const control::ProgramProbe& probe : outcome.run.probes)
         out += fmt::format("\n  line {:<6} {}", probe.line, control::probe_text(probe.probe, probe.outcome));
@@ -209,9 +210,9 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     json["trace_hash"] = fmt::format("{:016x}", outcome.trace_hash);
     json["position_valid"] = outcome.position_valid;
     json["max_deviation"] = {{"from", "program"},
-                             {"mm", outcome.worst.mm},
-                             {"line", outcome.worst.line},
-                             {"time_s", to_seconds(outcome.worst.at)}};
+                             {"mm", outcome.max_deviation.mm},
+                             {"line", outcome.max_deviation.line},
+                             {"time_s", to_seconds(outcome.max_deviation.at)}};
     if (!outcome.run.probes.empty()) json["probes"] = nlohmann::ordered_json::array();
     for (const control::ProgramProbe& probe : outcome.run.probes)
         json["probes"].push_back({{"line", probe.line}, {"hit", probe.outcome.hit}, {"at", probe.outcome.at}});

@@ -214,8 +214,8 @@ void Monitor::work_off(const RawSample& raw) {
     const ProgramDistance distance = deviation_at(sample.position);
     look_at_deviation(sample, distance);
     const double off = distance.mm;
-    if (off > seen_.worst.mm)
-        seen_.worst = {
+    if (off > seen_.max_deviation.mm)
+        seen_.max_deviation = {
             off, sample.at, seen_.open_block.line, {sample.position[0], sample.position[1], sample.position[2]}};
     if (seen_.block_open) seen_.open_block.deviation_mm = std::max(seen_.open_block.deviation_mm, off);
     ++seen_.taken;

@@ -104,7 +104,7 @@ class Monitor final : public sim::Device {
     const std::vector<MonitorSample>& samples() const { return seen_.kept.samples(); }
     const std::vector<double>& deviations() const { return seen_.kept.deviations(); }  ///< mm, one per sample
     const AxisStatistics& statistics(int index) const { return seen_.statistics[static_cast<std::size_t>(index)]; }
-    const PathDeviation& worst() const { return seen_.worst; }
+    const PathDeviation& max_deviation() const { return seen_.max_deviation; }
     /// Breaches in the commanded motion.
     const std::vector<Breach>& breaches() const { return seen_.breaches.all(); }
     /// Sets the permitted deviation of the pulses beyond the program's own tolerance, mm; 0 (default): unlimited. Call
@@ -180,7 +180,7 @@ class Monitor final : public sim::Device {
         bool block_open = false;
         std::vector<ExecutedMove> blocks;
         std::int64_t blocks_left_out = 0;
-        PathDeviation worst;
+        PathDeviation max_deviation;
         std::vector<JumpWatch> jump_watches;  ///< one per axis, for axes moved by pulses
         Breaches breaches;
         bool beside = false;  ///< the pulses deviate too far from the program

@@ -50,7 +50,7 @@ Result<Duration> Session::time_of(std::uint64_t ns) const {
             ErrorKind::refused,
             fmt::format("{} ns exceed the limit of a call, {} ns; nothing was run. Call several times.", ns, max_ns));
     const Duration time = nanoseconds(static_cast<std::int64_t>(ns));
-    MOTIONRACK_CHECK(room_for(time));
+    MOTIONRACK_CHECK(check_time_left(time));
     return time;
 }
 
@@ -93,7 +93,7 @@ void Session::between() {
 Result<std::uint32_t> Session::read(std::string_view card, int bits, std::uint32_t address) {
     MOTIONRACK_CHECK(check_free());
     MOTIONRACK_TRY(Card * on, card_for_access(rack_, card, bits, address, false));
-    MOTIONRACK_CHECK(room_for(milliseconds(1)));
+    MOTIONRACK_CHECK(check_time_left(milliseconds(1)));
     const std::uint32_t value = on->bus_read(bits, address);
     poll();
     report_conditions();
@@ -103,7 +103,7 @@ Result<std::uint32_t> Session::read(std::string_view card, int bits, std::uint32
 Result<void> Session::write(std::string_view card, int bits, std::uint32_t address, std::uint32_t value) {
     MOTIONRACK_CHECK(check_free());
     MOTIONRACK_TRY(Card * on, card_for_access(rack_, card, bits, address, true));
-    MOTIONRACK_CHECK(room_for(milliseconds(1)));
+    MOTIONRACK_CHECK(check_time_left(milliseconds(1)));
     on->bus_write(bits, address, value);
     poll();
     report_conditions();

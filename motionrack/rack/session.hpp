@@ -138,7 +138,7 @@ class Session {
     Session(const RackConfig& config, Programs programs);
     std::unique_ptr<Job> make_job(Programs programs);
     Instant now() const { return rack_.kernel().now(); }
-    Result<void> room_for(Duration time) const {
+    Result<void> check_time_left(Duration time) const {
         if (now() <= latest - time) return {};
         return refuse_time_beyond_end(now());
     }

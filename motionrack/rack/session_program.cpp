@@ -76,7 +76,7 @@ Result<void> Session::drive_program(const ProgramRequest& request, ProgramReport
         return fail(ErrorKind::refused,
                     "The rack has no axes, so no program can run on it. Nothing was moved; give it "
                     "some in its rack file.");
-    MOTIONRACK_CHECK(room_for(max_drive_time));
+    MOTIONRACK_CHECK(check_time_left(max_drive_time));
     MOTIONRACK_TRY(const control::Point start, job_->start());
     std::string name;
     MOTIONRACK_TRY(control::gcode::Settings reading, read_program(request, name));
@@ -118,7 +118,7 @@ ProgramReport Session::run_program(const ProgramRequest& request) {
 HomingOutcome Session::home(std::string_view axes) {
     HomingOutcome out;
     out.ended = check_free();
-    if (out.ended) out.ended = room_for(max_drive_time);
+    if (out.ended) out.ended = check_time_left(max_drive_time);
     if (!out.ended) return out;
     HomingSettings settings;
     for (const char c : axes)

@@ -59,7 +59,7 @@ std::string ended_text(const rack::JobOutcome& outcome) {
 Row row_of(const rack::JobOutcome& outcome) {
     Row out = {{"ended", ended_text(outcome)},
                {"time_s", number_text(to_seconds(outcome.time))},
-               {"max_deviation_mm", number_text(outcome.worst.mm)}};
+               {"max_deviation_mm", number_text(outcome.max_deviation.mm)}};
     for (const rack::AxisOutcome& axis : outcome.axes)
         for (const AxisColumn& column : axis_columns)
             out.emplace_back(axis_column_name(static_cast<std::size_t>(axis.index), column),

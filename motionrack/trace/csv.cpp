@@ -47,10 +47,10 @@ std::vector<Event> events_of(const ReportData& data) {
     };
     for (const ReportMove& move : data.moves) add(move.start, "move", move.line, move.kind);
     for (const ReportWarning& warning : data.warnings) add(warning.seconds, "warning", warning.line, warning.text);
-    if (data.worst) {
-        const ReportMaxDeviation& worst = *data.worst;
-        const std::string text = std::isfinite(worst.mm) ? fmt::format("{} mm", worst.mm) : "";
-        events.push_back({instant(worst.seconds), "max deviation", worst.line, worst.at, text});
+    if (data.max_deviation) {
+        const ReportMaxDeviation& max_deviation = *data.max_deviation;
+        const std::string text = std::isfinite(max_deviation.mm) ? fmt::format("{} mm", max_deviation.mm) : "";
+        events.push_back({instant(max_deviation.seconds), "max deviation", max_deviation.line, max_deviation.at, text});
     }
     if (data.stop)
         events.push_back({instant(data.stop->seconds), "stop", data.stop->line, data.stop->at, data.stop->text});

@@ -37,11 +37,11 @@ void split(const std::vector<PathPoint>& points, const Indices& indices, std::si
     while (!open.empty()) {
         const auto [a, b] = open.back();
         open.pop_back();
-        double worst = limit;
+        double max_distance = limit;
         std::size_t at = 0;
         for (std::size_t i = a + 1; i < b; ++i) {
             const double d = distance_squared(points[indices[i]], points[indices[a]], points[indices[b]]);
-            if (d > worst) worst = d, at = i;
+            if (d > max_distance) max_distance = d, at = i;
         }
         if (at == 0) continue;
         keep[at] = true;

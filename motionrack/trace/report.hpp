@@ -140,7 +140,7 @@ struct ReportData {
     double tolerance_mm = 0;          ///< reference line of the deviation; 0: not drawn
     std::vector<ReportSegment> planned;
     std::vector<Xyz> driven;  ///< true positions over `seconds`
-    std::optional<ReportMaxDeviation> worst;
+    std::optional<ReportMaxDeviation> max_deviation;
     std::optional<ReportStop> stop;
     std::vector<ReportMove> moves;  ///< in execution order; the page lists the first 2,000
     std::vector<ReportWarning> warnings;

@@ -81,8 +81,8 @@ std::string xyz_json(const Xyz& p) {
 
 /// Tolerance of the drawn paths: a fifth of the maximum deviation, within bounds, so that zooming in shows it.
 double path_tolerance(const ReportData& data, double size) {
-    const double worst = data.worst && data.worst->mm > 0 ? data.worst->mm : size;
-    return std::clamp(worst / 5, size / 2'000'000, size / 20'000);
+    const double max_deviation = data.max_deviation && data.max_deviation->mm > 0 ? data.max_deviation->mm : size;
+    return std::clamp(max_deviation / 5, size / 2'000'000, size / 20'000);
 }
 
 std::string driven_json(const ReportData& data, double second) {
@@ -250,9 +250,10 @@ std::string drawing_json(const ReportData& data, const std::vector<PageChart>& c
     }
     out += "],\n\"frame\":" + extent_json(frame_of(data)) + ",\"travel\":" + extent_json(extent_of_travel(data));
     out += ",\n\"driven\":" + driven_json(data, second) + ",\n\"planned\":" + planned_json(data);
-    if (data.worst) {
-        out += fmt::format(",\n\"worst\":{{\"at\":{},\"t\":{},\"mm\":{},\"line\":{}}}", xyz_json(data.worst->at),
-                           json_number(data.worst->seconds), json_number(data.worst->mm), data.worst->line);
+    if (data.max_deviation) {
+        out += fmt::format(",\n\"worst\":{{\"at\":{},\"t\":{},\"mm\":{},\"line\":{}}}",
+                           xyz_json(data.max_deviation->at), json_number(data.max_deviation->seconds),
+                           json_number(data.max_deviation->mm), data.max_deviation->line);
     }
     if (data.stop) {
         out += fmt::format(",\n\"stop\":{{\"at\":{},\"t\":{},\"line\":{}}}", xyz_json(data.stop->at),

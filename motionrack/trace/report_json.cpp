@@ -152,7 +152,7 @@ void fields_of(ReportData& v, Fields& f) {
     f("title", v.title)("program_kind", v.program_kind)("program_name", v.program_name)("rack_name", v.rack_name)(
         "verdict", v.verdict);
     f("numbers", v.numbers)("axes", v.axes)("tolerance_mm", v.tolerance_mm)("planned", v.planned);
-    f.former("worst", v.worst)("max_deviation", v.worst)("stop", v.stop);
+    f.former("worst", v.max_deviation)("max_deviation", v.max_deviation)("stop", v.stop);
     f("moves", v.moves)("warnings", v.warnings)("pictures", v.pictures)("pictures_hint", v.pictures_hint)("tables",
                                                                                                           v.tables);
     f("series", v.series)("source", v.source)("notes", v.notes);

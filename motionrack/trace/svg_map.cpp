@@ -85,10 +85,10 @@ class Map {
 
     std::string ticks() const {
         std::string out;
-        const auto along = [](const std::vector<double>& all, double each, double room, bool cells) {
+        const auto along = [](const std::vector<double>& all, double each, double width, bool cells) {
             std::vector<double> at;
             if (cells) {
-                const auto every = static_cast<std::size_t>(std::max(1.0, std::ceil(room / each)));
+                const auto every = static_cast<std::size_t>(std::max(1.0, std::ceil(width / each)));
                 for (std::size_t i = 0; i < all.size(); i += every) at.push_back(all[i]);
             } else {
                 const double step = nice_step(all.back() - all.front(), 5);

@@ -246,9 +246,10 @@ std::string marks(const ReportData& data, const Projection& at) {
     if (!path.empty() && finite(path.front()))
         out += mark(at(path.front()), "start", "Start: " + position_text(path.front()));
     if (!path.empty() && finite(path.back())) out += mark(at(path.back()), "end", "End: " + position_text(path.back()));
-    if (data.worst && finite(data.worst->at)) {
-        out += mark(at(data.worst->at), "worst",
-                    fmt::format("Max deviation {} mm at {} s", number(data.worst->mm), number(data.worst->seconds)));
+    if (data.max_deviation && finite(data.max_deviation->at)) {
+        out += mark(at(data.max_deviation->at), "worst",
+                    fmt::format("Max deviation {} mm at {} s", number(data.max_deviation->mm),
+                                number(data.max_deviation->seconds)));
     }
     if (data.stop && finite(data.stop->at)) out += mark(at(data.stop->at), "stop", "Stopped: " + data.stop->text);
     return out;

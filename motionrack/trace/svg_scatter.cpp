@@ -107,8 +107,8 @@ class Scatter {
     }
 
     /// Truncates a name to the available space.
-    static std::string fitted(const std::string& name, double room) {
-        const auto max_letters = static_cast<std::size_t>(std::max(3.0, room / letter_width));
+    static std::string fitted(const std::string& name, double width) {
+        const auto max_letters = static_cast<std::size_t>(std::max(3.0, width / letter_width));
         return name.size() <= max_letters ? name : name.substr(0, max_letters - 2) + "..";
     }
 

@@ -203,7 +203,7 @@ void VcdWriter::end_declarations() {
     scopes_.clear();
     put("$enddefinitions $end\n#0\n$dumpvars\n");
     for (const Variable& variable : variables_) {
-        room(max_change_bytes);
+        reserve(max_change_bytes);
         put_value(variable);
     }
     put("$end\n");
@@ -220,7 +220,7 @@ void VcdWriter::change(Id id, std::uint64_t value, Instant at) {
     now_ = at;
     if (value == variable.value) return;
     variable.value = value;
-    room(max_change_bytes);
+    reserve(max_change_bytes);
     advance(at);
     put_value(variable);
 }
@@ -233,7 +233,7 @@ void VcdWriter::change_real(Id id, double value, Instant at) {
     now_ = at;
     if (!std::isfinite(value) || value == std::bit_cast<double>(variable.value)) return;
     variable.value = std::bit_cast<std::uint64_t>(value);
-    room(max_change_bytes);
+    reserve(max_change_bytes);
     advance(at);
     put_value(variable);
 }
@@ -241,7 +241,7 @@ void VcdWriter::change_real(Id id, double value, Instant at) {
 Result<void> VcdWriter::close(Instant end) {
     if (file_ && !gave_up_) {
         if (declaring_) end_declarations();
-        room(max_change_bytes);
+        reserve(max_change_bytes);
         if (end >= now_ && end > Instant{0}) advance(end);
         write_out();
         (void)file_.commit();
@@ -251,7 +251,7 @@ Result<void> VcdWriter::close(Instant end) {
 
 void VcdWriter::put(std::string_view text) {
     while (!text.empty()) {
-        room(1);
+        reserve(1);
         const std::size_t part = std::min(text.size(), buffer_.size() - used_);
         std::memcpy(buffer_.data() + used_, text.data(), part);
         used_ += part;
@@ -280,7 +280,7 @@ void VcdWriter::put_value(const Variable& variable) {
     used_ = static_cast<std::size_t>(at - buffer_.data());
 }
 
-void VcdWriter::room(std::size_t bytes) {
+void VcdWriter::reserve(std::size_t bytes) {
     if (buffer_.size() - used_ < bytes) flush();
 }
 

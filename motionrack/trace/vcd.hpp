@@ -89,7 +89,7 @@ class VcdWriter {
     void end_declarations();
     void put(std::string_view text);
     void put_value(const Variable& variable);
-    void room(std::size_t bytes);
+    void reserve(std::size_t bytes);
     void flush();
     void write_out();
     void advance(Instant at);

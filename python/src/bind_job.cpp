@@ -130,11 +130,11 @@ py::dict dict_of(const Ran& ran) {
     py::list axes, warnings;
     for (const rack::AxisOutcome& axis : outcome.axes) axes.append(dict_of(axis));
     out["axes"] = axes;
-    out["max_deviation_mm"] = outcome.worst.mm;
-    out["max_deviation_ticks"] = outcome.worst.at.count();
-    out["max_deviation_line"] = outcome.worst.line;
-    out["max_deviation_position"] =
-        py::make_tuple(outcome.worst.position[0], outcome.worst.position[1], outcome.worst.position[2]);
+    out["max_deviation_mm"] = outcome.max_deviation.mm;
+    out["max_deviation_ticks"] = outcome.max_deviation.at.count();
+    out["max_deviation_line"] = outcome.max_deviation.line;
+    out["max_deviation_position"] = py::make_tuple(outcome.max_deviation.position[0], outcome.max_deviation.position[1],
+                                                   outcome.max_deviation.position[2]);
     out["tolerance_mm"] = outcome.tolerance_mm;
     for (const rack::JobWarning& warning : outcome.warnings)
         warnings.append(py::make_tuple(warning.at.count(), warning.line, warning.text));

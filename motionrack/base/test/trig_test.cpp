@@ -29,23 +29,23 @@ bool wide_long_double() {
 
 double worst_sin_cos(double range, std::mt19937_64& random) {
     std::uniform_real_distribution<double> angle(-range, range);
-    double worst = 0;
+    double max_error = 0;
     for (int i = 0; i < angles; ++i) {
         const double x = angle(random);
         const SinCos got = sin_cos(x);
-        worst = std::fmax(worst, ulps(got.sin, std::sin(static_cast<long double>(x))));
-        worst = std::fmax(worst, ulps(got.cos, std::cos(static_cast<long double>(x))));
+        max_error = std::fmax(max_error, ulps(got.sin, std::sin(static_cast<long double>(x))));
+        max_error = std::fmax(max_error, ulps(got.cos, std::cos(static_cast<long double>(x))));
     }
-    return worst;
+    return max_error;
 }
 
 TEST(Trig, SineAndCosineAreWithinAnUlpUpToAMillionRadians) {
     if (!wide_long_double()) GTEST_SKIP() << "long double is no wider than double here";
     std::mt19937_64 random(seed);
     for (const double range : {1e-3, 0.7854, 7.0, 1e3, 1e6}) {
-        const double worst = worst_sin_cos(range, random);
-        RecordProperty("worst_ulps_sin_cos", std::to_string(worst));
-        EXPECT_LT(worst, 0.85) << "range " << range << ", seed " << seed;
+        const double max_error = worst_sin_cos(range, random);
+        RecordProperty("worst_ulps_sin_cos", std::to_string(max_error));
+        EXPECT_LT(max_error, 0.85) << "range " << range << ", seed " << seed;
     }
 }
 
@@ -89,15 +89,16 @@ TEST(Trig, ArcTangentIsWithinAnUlpOrSo) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> any(-1, 1);
     std::uniform_int_distribution<int> power(-30, 30);
-    double worst = 0;
+    double max_error = 0;
     for (int i = 0; i < angles; ++i) {
         const double y = std::ldexp(any(random), i % 2 == 0 ? 0 : power(random));
         const double x = any(random);
         const double got = motionrack::atan2(y, x);
-        worst = std::fmax(worst, ulps(got, std::atan2(static_cast<long double>(y), static_cast<long double>(x))));
+        max_error =
+            std::fmax(max_error, ulps(got, std::atan2(static_cast<long double>(y), static_cast<long double>(x))));
     }
-    RecordProperty("worst_ulps_atan2", std::to_string(worst));
-    EXPECT_LT(worst, 1.2) << "seed " << seed;
+    RecordProperty("worst_ulps_atan2", std::to_string(max_error));
+    EXPECT_LT(max_error, 1.2) << "seed " << seed;
 }
 
 TEST(Trig, ArcTangentKnowsTheAxesZerosAndInfinitiesAsCDoes) {
@@ -120,14 +121,14 @@ TEST(Trig, ArcCosineIsWithinTwoAndAHalfUlps) {
     if (!wide_long_double()) GTEST_SKIP() << "long double is no wider than double here";
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> any(-1, 1);
-    double worst = 0;
+    double max_error = 0;
     for (int i = 0; i < angles; ++i) {
         const double x = i % 4 == 0 ? 1 - std::ldexp(any(random), -30) * any(random) : any(random);
         if (std::fabs(x) > 1) continue;
-        worst = std::fmax(worst, ulps(motionrack::acos(x), std::acos(static_cast<long double>(x))));
+        max_error = std::fmax(max_error, ulps(motionrack::acos(x), std::acos(static_cast<long double>(x))));
     }
-    RecordProperty("worst_ulps_acos", std::to_string(worst));
-    EXPECT_LT(worst, 2.6) << "seed " << seed;
+    RecordProperty("worst_ulps_acos", std::to_string(max_error));
+    EXPECT_LT(max_error, 2.6) << "seed " << seed;
     EXPECT_EQ(motionrack::acos(1), 0);
     EXPECT_EQ(motionrack::acos(-1), pi);
     EXPECT_TRUE(std::isnan(motionrack::acos(1.0000001)));

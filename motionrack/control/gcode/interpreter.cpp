@@ -93,7 +93,7 @@ bool Interpreter::assign() {
     std::size_t global = 0, local = 0;
     for (const auto& [parameter, value] : block_.assignments) {
         if (parameter.number > 0 || parameters_.named(parameter.name)) continue;
-        if (++(is_global(parameter.name) ? global : local) > parameters_.room_for(parameter.name)) {
+        if (++(is_global(parameter.name) ? global : local) > parameters_.capacity_for(parameter.name)) {
             return fail_at(
                 block_.text.find('#'), GrblStatus::unsupported,
                 fmt::format("#<{}> is one named parameter too many; there may be {}", parameter.name, max_names));

@@ -47,9 +47,10 @@ struct Sum {
     double slope(double width) const {
         return (a * width * width * width - c * width + 2 * e) / (12 * width * width * width);
     }
-    /// Returns the blend length at which the sum is `room`, or slightly more: it is convex, and `width` exceeds it.
-    double solve(double width, double room) const {
-        for (int i = 0; i < 3; ++i) width -= (at(width) - room) / slope(width);
+    /// Returns the blend length at which the sum is `tolerance`, or slightly more: it is convex, and `width` exceeds
+    /// it.
+    double solve(double width, double tolerance) const {
+        for (int i = 0; i < 3; ++i) width -= (at(width) - tolerance) / slope(width);
         return width;
     }
     double need(double velocity) const {
@@ -60,7 +61,7 @@ struct Sum {
 };
 
 double weight_of(const CornerBlend& turn, const CornerBlend& corner) {
-    return std::max(turn.linear, turn.rotary * corner.room_per_rotary);
+    return std::max(turn.linear, turn.rotary * corner.tolerance_per_rotary);
 }
 
 }  // namespace

@@ -23,11 +23,11 @@ struct CornerBlend {
            fall = 0;     ///< 1 / ((peak - begin)(end - begin)), 1 / ((end - peak)(end - begin)); 0 without such a side
     bool fixed = false;  ///< given blend length (arcs)
     double blend_length = 0;
-    double linear = 0;           ///< size of the XYZ change
-    double rotary = 0;           ///< change of the rotary axis with the largest change
-    double tolerance = 0;        ///< largest deviation from the corner by blending: mm, or degrees where only ABC move
-    double room_per_rotary = 0;  ///< weight of a degree of the rotary axes in `tolerance`
-    double velocity = 0;         ///< maximum du/dt here
+    double linear = 0;     ///< size of the XYZ change
+    double rotary = 0;     ///< change of the rotary axis with the largest change
+    double tolerance = 0;  ///< largest deviation from the corner by blending: mm, or degrees where only ABC move
+    double tolerance_per_rotary = 0;  ///< weight of a degree of the rotary axes in `tolerance`
+    double velocity = 0;              ///< maximum du/dt here
     double per_accel =
         0;  ///< change relative to the axis limit, largest over the axes: gives the blend length for a velocity
     double per_jerk = 0;

@@ -16,7 +16,7 @@ constexpr double spare = 1.1;
 /// quite time-optimal.
 constexpr double worth_easing = 0.01;
 /// Smallest share of the tolerance that is tried.
-constexpr double min_room = 0.05;
+constexpr double min_tolerance_share = 0.05;
 
 /// Returns the time in which a leg from standstill only accelerates: to its velocity, or to its middle, s.
 double rising_seconds(const LegLimits& leg) {
@@ -107,8 +107,9 @@ CornerStop corner_stop_between(const LegLimits& before, const LegLimits& after, 
         if (shared) stop.gain = std::min({stop.gain, rise_of(before), rise_of(after)});
         return stop;
     }
-    for (double room = corner_tolerance_mm; room > corner_tolerance_mm * min_room; room *= 0.5) {
-        const CornerStop eased = eased_stop(before, after, room, turns_back);
+    for (double tolerance = corner_tolerance_mm; tolerance > corner_tolerance_mm * min_tolerance_share;
+         tolerance *= 0.5) {
+        const CornerStop eased = eased_stop(before, after, tolerance, turns_back);
         if (eased.gain > stop.gain) stop = eased;
     }
     if (stop.gain < worth_easing * (rising_seconds(before) + rising_seconds(after))) stop = {};

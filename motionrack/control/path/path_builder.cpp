@@ -49,17 +49,17 @@ double max_velocity_on(const CubicSegment& piece, bool rotary) {
 }
 
 /// Returns the remaining tolerance for blends on a segment.
-Tolerance room_on(const MergedSegment& segment, double arcs) {
+Tolerance tolerance_on(const MergedSegment& segment, double arcs) {
     const double part = 1 - arcs - 2 * left_out_share;
     return {part * segment.tolerance.linear - segment.merged.linear,
             part * segment.tolerance.rotary - segment.merged.rotary};
 }
 
 /// Returns the remaining tolerance at a junction; both segments may be arcs.
-Tolerance room_between(const MergedSegment& before, const MergedSegment& after) {
+Tolerance tolerance_between(const MergedSegment& before, const MergedSegment& after) {
     const bool lines = before.kind == MergedSegmentKind::line && after.kind == MergedSegmentKind::line;
     const double arcs = lines ? 0 : 2 * (after.tangent ? arc_tangent_share : arc_corner_share);
-    const Tolerance a = room_on(before, arcs), b = room_on(after, arcs);
+    const Tolerance a = tolerance_on(before, arcs), b = tolerance_on(after, arcs);
     return {std::min(a.linear, b.linear), std::min(a.rotary, b.rotary)};
 }
 
@@ -190,9 +190,9 @@ void PathBuilder::add_line(const MergedSegment& line) {
 void PathBuilder::add_corner(const MergedSegment& segment) {
     CornerBlend& turn = add_turn(u_end_, segment.start, segment.tangent_in);
     for (int i = 0; i < axis_count; ++i) turn.change[i] = segment.tangent_in[i] - last_.tangent_out[i];
-    const Tolerance room = room_between(last_, segment);
-    turn.tolerance = segment.rotary ? room.rotary : room.linear;
-    turn.room_per_rotary = turn.tolerance / room.rotary;
+    const Tolerance tolerance = tolerance_between(last_, segment);
+    turn.tolerance = segment.rotary ? tolerance.rotary : tolerance.linear;
+    turn.tolerance_per_rotary = turn.tolerance / tolerance.rotary;
     turn.velocity = std::max(last_.velocity, segment.velocity);
     turn.feed = segment.feed;
     turn.line = segment.line;
@@ -204,15 +204,15 @@ void PathBuilder::add_corner(const MergedSegment& segment) {
 double PathBuilder::junction_step(const MergedSegment& arc, const MergedSegment& neighbour, bool tangent) const {
     if (neighbour.kind == MergedSegmentKind::rest) return 0;
     const double share = tangent ? arc_tangent_share : arc_corner_share;
-    const double room = share * std::min(arc.tolerance.linear, neighbour.tolerance.linear);
-    const auto by_room = [room](const ArcCurve& curve) {
-        return std::sqrt(room / (junction_error * curve.max_curvature()));
+    const double tolerance = share * std::min(arc.tolerance.linear, neighbour.tolerance.linear);
+    const auto by_tolerance = [tolerance](const ArcCurve& curve) {
+        return std::sqrt(tolerance / (junction_error * curve.max_curvature()));
     };
     // The first hat reaches over the junction, but not over the other end of the neighbour or many of its corners.
-    double step = std::min(by_room(arc.arc), neighbour.length / step_before_junction);
+    double step = std::min(by_tolerance(arc.arc), neighbour.length / step_before_junction);
     if (neighbour.kind == MergedSegmentKind::arc) {
         const double other =
-            std::min(by_room(neighbour.arc), inner_step(neighbour.arc, inner_share * neighbour.tolerance.linear));
+            std::min(by_tolerance(neighbour.arc), inner_step(neighbour.arc, inner_share * neighbour.tolerance.linear));
         step = std::min(step, 2 * other);
     }
     // The distance over the first corner exceeds the arc by this; the rotary axes move with it.
@@ -249,9 +249,9 @@ void PathBuilder::add_arc_corner() {
     turn.peak = arc_begin_ + corner.peak;
     turn.end = arc_begin_ + corner.end;
     for (int i = 0; i < axis_count; ++i) turn.change[i] = tangent[i] - before[i];
-    const Tolerance room = room_on(last_, 2 * arc_tangent_share);
-    turn.tolerance = room.linear;
-    turn.room_per_rotary = room.linear / room.rotary;
+    const Tolerance tolerance = tolerance_on(last_, 2 * arc_tangent_share);
+    turn.tolerance = tolerance.linear;
+    turn.tolerance_per_rotary = tolerance.linear / tolerance.rotary;
     turn.feed = last_.feed;
     turn.line = last_.line;
     turns_.added();

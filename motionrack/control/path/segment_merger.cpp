@@ -79,7 +79,7 @@ Geometry SegmentMerger::shape_of(const Move& move) const {
     return line;
 }
 
-Tolerance SegmentMerger::room_to_merge(const Tolerance& tolerance) const {
+Tolerance SegmentMerger::merge_tolerance(const Tolerance& tolerance) const {
     return {merge_room(tolerance.linear, 2 * half_pulse_.linear), merge_room(tolerance.rotary, 2 * half_pulse_.rotary)};
 }
 
@@ -123,20 +123,20 @@ MergedSegment SegmentMerger::segment_of(const Move& move, const Geometry& path) 
     segment.start = path.start;
     segment.end = path.end;
     segment.tolerance = path_tolerance(move);
-    Point worst;
+    Point components;
     if (path.shape == PathShape::arc) {
         segment.kind = MergedSegmentKind::arc;
         segment.arc = ArcCurve(path);
         segment.length = segment.arc.length();
         segment.tangent_in = segment.arc.at(0).tangent;
         segment.tangent_out = segment.arc.at(segment.length).tangent;
-        worst = max_tangent_components(path);
+        components = max_tangent_components(path);
     } else {
-        if (move.kind == MoveKind::arc) segment.merged = room_to_merge(segment.tolerance);
+        if (move.kind == MoveKind::arc) segment.merged = merge_tolerance(segment.tolerance);
         make_line(segment);
-        worst = segment.tangent_in;
+        components = segment.tangent_in;
     }
-    const double max_velocity = max_velocity_along(worst, limits_);
+    const double max_velocity = max_velocity_along(components, limits_);
     if (move.kind == MoveKind::rapid)
         segment.feed =
             move.rapid_override < 1 ? move.rapid_override * max_velocity : std::numeric_limits<double>::infinity();
@@ -167,23 +167,23 @@ bool SegmentMerger::has_width(const MergedSegment& segment, const Point& in, con
         double& max_change = i < 3 ? linear : rotary;
         max_change = std::max(max_change, std::fabs(out[i] - in[i]));
     }
-    const Tolerance room{std::min(last_.tolerance.linear, segment.tolerance.linear),
-                         std::min(last_.tolerance.rotary, segment.tolerance.rotary)};
-    return room.linear >= min_width * linear && room.rotary >= min_width * rotary;
+    const Tolerance tolerance{std::min(last_.tolerance.linear, segment.tolerance.linear),
+                              std::min(last_.tolerance.rotary, segment.tolerance.rotary)};
+    return tolerance.linear >= min_width * linear && tolerance.rotary >= min_width * rotary;
 }
 
 /// Returns the largest distance of the path from the sides of the corner at a stop between these segments. Rotary axes
 /// move in proportion.
 double SegmentMerger::corner_tolerance(const MergedSegment& before, const MergedSegment& after) const {
     if (before.rotary || after.rotary) return 0;
-    double room = corner_share * std::min(before.tolerance.linear, after.tolerance.linear) - before.merged.linear;
+    double tolerance = corner_share * std::min(before.tolerance.linear, after.tolerance.linear) - before.merged.linear;
     const double rotary =
         corner_share * std::min(before.tolerance.rotary, after.tolerance.rotary) - before.merged.rotary;
     for (std::size_t i = 3; i < before.tangent_out.size(); ++i) {
         const double turned = std::max(std::fabs(before.tangent_out[i]), std::fabs(after.tangent_in[i]));
-        if (turned > 0) room = std::min(room, rotary / turned);
+        if (turned > 0) tolerance = std::min(tolerance, rotary / turned);
     }
-    return std::max(0.0, room);
+    return std::max(0.0, tolerance);
 }
 
 /// Returns the blend length of the corner: as long as its tolerance allows, but within its moves.
@@ -261,9 +261,9 @@ void SegmentMerger::push(const Move& move) {
     any_left_out_ = stop_left_out_ = false;
     if (rests || !merge(move, segment)) {
         if (rests && open_) {
-            const double room = last_move_.path == PathControl::continuous ? corner_tolerance(last_, segment) : 0;
+            const double tolerance = last_move_.path == PathControl::continuous ? corner_tolerance(last_, segment) : 0;
             rest(0, last_move_.line);
-            segments_[(made_ - 1) % capacity].corner_tolerance_mm = room;
+            segments_[(made_ - 1) % capacity].corner_tolerance_mm = tolerance;
         }
         close();
         segment.tangent = !rests && is_same_direction(last_tangent_, path.tangent_in);
@@ -284,7 +284,7 @@ bool SegmentMerger::merge(const Move& move, const MergedSegment& next) {
                        same_feed(next.feed, last_.feed);
     if (!alike || !lies_along(next.end, next)) return false;
     inner_[inner_count_++] = last_.end;
-    last_.merged = room_to_merge(last_.tolerance);
+    last_.merged = merge_tolerance(last_.tolerance);
     last_.end = next.end;
     make_line(last_);
     last_.feed = std::min(last_.feed, next.feed);
@@ -294,8 +294,8 @@ bool SegmentMerger::merge(const Move& move, const MergedSegment& next) {
 
 bool SegmentMerger::lies_along(const Point& end, const MergedSegment& next) const {
     const int first = next.rotary ? 3 : 0;
-    const Tolerance room = room_to_merge(next.tolerance);
-    const double near = next.rotary ? room.rotary : room.linear;
+    const Tolerance tolerance = merge_tolerance(next.tolerance);
+    const double near = next.rotary ? tolerance.rotary : tolerance.linear;
     Point change;
     for (int i = 0; i < axis_count; ++i) change[i] = end[i] - last_.start[i];
     const double square = dot_from(change, change, first);
@@ -311,7 +311,7 @@ bool SegmentMerger::lies_along(const Point& end, const MergedSegment& next) cons
         for (int i = 0; i < axis_count; ++i) way[i] -= part * change[i];
         if (dot_from(way, way, first) > near * near) return false;
         for (int i = 3; i < axis_count; ++i)
-            if (std::fabs(way[i]) > room.rotary) return false;
+            if (std::fabs(way[i]) > tolerance.rotary) return false;
     }
     return true;
 }

@@ -77,7 +77,7 @@ class SegmentMerger {
     static constexpr std::size_t max_merged = 32;
 
     Tolerance path_tolerance(const Move& move) const;
-    Tolerance room_to_merge(const Tolerance& tolerance) const;
+    Tolerance merge_tolerance(const Tolerance& tolerance) const;
     Geometry shape_of(const Move& move) const;
     bool is_left_out(const Geometry& path) const;
     bool turns_otherwise(const Move& move) const;

@@ -64,7 +64,7 @@ std::vector<Spot> spots(const std::vector<Move>& moves, Spot from) {
 
 /// Returns the largest distance of `places` from the polyline through `line`; both have the same direction.
 double farthest(const std::vector<Spot>& places, const std::vector<Spot>& line) {
-    double worst = 0;
+    double max_error = 0;
     std::size_t near = 0;
     for (const Spot p : places) {
         double best = 1e9;
@@ -73,9 +73,9 @@ double farthest(const std::vector<Spot>& places, const std::vector<Spot>& line) 
             const double d = to_segment(p, line[i], line[i + 1]);
             if (d < best) best = d, near = i;
         }
-        worst = std::max(worst, best);
+        max_error = std::max(max_error, best);
     }
-    return worst;
+    return max_error;
 }
 
 double in_tenths() {
@@ -113,14 +113,14 @@ RC_GTEST_PROP(GcodeSpline, ArcsAreWithinAMicrometreOfTheCubicBothWays, ()) {
     const std::vector<Spot> driven = spots(moves, start);
     RC_ASSERT(farthest(driven, fine) <= spline_tolerance_mm);
     // Chords of the sampled points are within 0.05^2 / 8 r of the arcs; so the comparison allows slightly more.
-    double worst = 0;
+    double max_error = 0;
     for (std::size_t k = 0; k < fine.size(); k += 29) {
         double best = 1e9;
         for (std::size_t m = 0; m + 1 < driven.size(); ++m)
             best = std::min(best, to_segment(fine[k], driven[m], driven[m + 1]));
-        worst = std::max(worst, best);
+        max_error = std::max(max_error, best);
     }
-    RC_ASSERT(worst <= spline_tolerance_mm + 1e-4);
+    RC_ASSERT(max_error <= spline_tolerance_mm + 1e-4);
 }
 
 TEST(GcodeSpline, ArcsPassIntoEachOtherWithoutACorner) {

@@ -180,15 +180,15 @@ RC_GTEST_PROP(GeometryLaws, PositionsOnAnArcKeepItsRadiusAndMoveByTheTangent, ()
 RC_GTEST_PROP(GeometryLaws, TheWorstComponentIsTheGreatestOfManyTangents, ()) {
     const RandomArc made = random_arc(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::arbitrary<bool>());
     const Geometry path = geometry_of(made.move, made.start);
-    const Point worst = max_tangent_components(path);
+    const Point max_error = max_tangent_components(path);
     Point seen{};
     for (int k = 0; k <= 2000; ++k) {
         const Point tangent = tangent_at(path, path.length * k / 2000);
         for (int i = 0; i < axis_count; ++i) seen[i] = std::max(seen[i], std::fabs(tangent[i]));
     }
     for (int i = 0; i < axis_count; ++i) {
-        RC_ASSERT(seen[i] <= worst[i] + 1e-12);
-        RC_ASSERT(seen[i] >= worst[i] - 1e-4 * (1 + worst[i]));
+        RC_ASSERT(seen[i] <= max_error[i] + 1e-12);
+        RC_ASSERT(seen[i] >= max_error[i] - 1e-4 * (1 + max_error[i]));
     }
 }
 

@@ -88,16 +88,16 @@ class Polygon {
     void cut(double a, double b, double max) {
         std::array<Corner, max_corners> kept = {};
         std::size_t count = 0;
-        const auto room = [&](const Corner& corner) { return max - (a * corner.from + b * corner.to); };
+        const auto slack = [&](const Corner& corner) { return max - (a * corner.from + b * corner.to); };
         for (std::size_t i = 0; i < count_; ++i) {
             const Corner &here = corners_[i], &next = corners_[(i + 1) % count_];
-            const double here_room = room(here), next_room = room(next);
-            if (here_room >= 0) kept[count++] = here;
-            if ((here_room >= 0) == (next_room >= 0)) continue;
+            const double here_slack = slack(here), next_slack = slack(next);
+            if (here_slack >= 0) kept[count++] = here;
+            if ((here_slack >= 0) == (next_slack >= 0)) continue;
             // From the inner point, which keeps the digits of small squares beside large ones.
-            const bool leaves = here_room >= 0;
+            const bool leaves = here_slack >= 0;
             const Corner &in = leaves ? here : next, &out = leaves ? next : here;
-            const double part = (leaves ? here_room : next_room) / std::fabs(here_room - next_room);
+            const double part = (leaves ? here_slack : next_slack) / std::fabs(here_slack - next_slack);
             kept[count++] = {in.from + part * (out.from - in.from), in.to + part * (out.to - in.to)};
         }
         corners_ = kept;

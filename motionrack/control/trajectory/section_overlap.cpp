@@ -48,18 +48,18 @@ Times times_about(const ProfileSegment& piece, double position) {
     return out;
 }
 
-/// Returns the time before the end from which at most `room` remains, s.
-double seconds_to_go(std::span<const ProfileSegment> feed, double room) {
-    const double position = feed.back().begin + feed.back().length - room;
+/// Returns the time before the end from which at most `length` remains, s.
+double seconds_to_go(std::span<const ProfileSegment> feed, double length) {
+    const double position = feed.back().begin + feed.back().length - length;
     double seconds = 0;
     for (std::size_t i = feed.size(); i-- > 0; seconds += feed[i].seconds)
         if (feed[i].begin < position) return seconds + feed[i].seconds - times_about(feed[i], position).after;
     return seconds;
 }
 
-/// Returns the time from the start until which at most `room` is covered, s.
-double seconds_gone(std::span<const ProfileSegment> feed, double room) {
-    const double position = feed.front().begin + room;
+/// Returns the time from the start until which at most `length` is covered, s.
+double seconds_gone(std::span<const ProfileSegment> feed, double length) {
+    const double position = feed.front().begin + length;
     double seconds = 0;
     for (const ProfileSegment& piece : feed) {
         if (piece.begin + piece.length > position) return seconds + times_about(piece, position).before;

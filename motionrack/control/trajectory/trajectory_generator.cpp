@@ -47,20 +47,20 @@ void TrajectoryGenerator::push(const TrajectoryMove& move) {
     Move tagged = move.move;
     tagged.line = static_cast<std::int32_t>(pushed_++ % tags);
     moves_.push_back(move);
-    make_room();
+    reserve();
     builder_.push(tagged);
     fetch_segments(settings_.window);
 }
 
 void TrajectoryGenerator::flush() {
-    make_room();
+    reserve();
     flushed_ = pushed_;
     builder_.flush();
     fetch_segments(settings_.window);
 }
 
 /// A flush and a push may coincide: then a few more segments are known than the window allows.
-void TrajectoryGenerator::make_room() {
+void TrajectoryGenerator::reserve() {
     if (!builder_.has_room()) fetch_segments(std::numeric_limits<std::size_t>::max());
 }
 

@@ -118,7 +118,7 @@ class TrajectoryGenerator {
 
     std::int64_t move_of(std::int32_t tag) const;
     void fetch_segments(std::size_t max_segments);
-    void make_room();
+    void reserve();
     void append(KnownSection& part, const CubicSegment& piece);
     double feed_of(const KnownSection& part, std::size_t i) const;
     void set_feed(KnownSection& part, std::size_t i, double at_least = 0) const;

@@ -72,10 +72,10 @@ Result<void> TrajectoryInterpolator::push(const Move& move, bool overridable) {
 }
 
 std::uint8_t TrajectoryInterpolator::axes_of(const Geometry& path) const {
-    const Point worst = max_tangent_components(path);
+    const Point components = max_tangent_components(path);
     unsigned axes = 0;
-    for (std::size_t i = 0; i < worst.size(); ++i)
-        if (worst[i] * path.length * limits_[i].pulses_per_unit >= 0.5) axes |= 1u << i;
+    for (std::size_t i = 0; i < components.size(); ++i)
+        if (components[i] * path.length * limits_[i].pulses_per_unit >= 0.5) axes |= 1u << i;
     return static_cast<std::uint8_t>(axes);
 }
 

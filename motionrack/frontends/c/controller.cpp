@@ -71,7 +71,7 @@ int mr_run_program(mr_rack* rack, const char* path_or_text, const mr_run_options
         if (result != nullptr)
             *result = {code == MR_OK,          report.location.line,
                        report.location.column, motionrack::to_seconds(report.outcome.time),
-                       report.outcome.path_mm, report.outcome.worst.mm,
+                       report.outcome.path_mm, report.outcome.max_deviation.mm,
                        rack->sentence.c_str()};
         return {};
     });

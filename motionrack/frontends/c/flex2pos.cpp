@@ -202,13 +202,13 @@ int flex2pos_image_make(const char* project, uint8_t ident, const uint8_t* paylo
             if (payload != nullptr) content.payload.assign(payload, payload + payload_size);
             MOTIONRACK_TRY(const auto raw, io::raw_image(content));
             const std::vector<std::uint8_t> made = io::compressed(raw);
-            const size_t room = image != nullptr ? *size : 0;
+            const size_t capacity = image != nullptr ? *size : 0;
             *size = made.size();
-            if (room < made.size())
+            if (capacity < made.size())
                 return motionrack::fail(motionrack::ErrorKind::invalid_input,
                                         fmt::format("The image has {} bytes, but the buffer only {}. The image was "
                                                     "not written. Call again with the returned size.",
-                                                    made.size(), room));
+                                                    made.size(), capacity));
             std::copy(made.begin(), made.end(), image);
             return {};
         });

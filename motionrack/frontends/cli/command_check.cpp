@@ -108,15 +108,15 @@ control::MachineLimits boundless() {
 }
 
 int check(const CheckOptions& options) {
-    int worst = exit_done;
+    int result = exit_done;
     nlohmann::json json = nlohmann::json::array();
     for (const std::string& path : options.files) {
         nlohmann::json* to = options.json ? &json : nullptr;
         const int code = is_rack_file(path) ? check_rack(path, to) : check_program_file(path, options, to);
-        if (worst == exit_done) worst = code;
+        if (result == exit_done) result = code;
     }
     if (options.json) fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    return worst;
+    return result;
 }
 
 }  // namespace

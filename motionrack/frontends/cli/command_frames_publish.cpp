@@ -55,14 +55,14 @@ void report_published(const dds::Publisher& publisher, const dds::Published& don
                                             {"refused", publisher.refused()},
                                             {"late", done.late},
                                             {"slips", done.slips},
-                                            {"max_lateness_ms", to_seconds(done.worst) * 1e3},
+                                            {"max_lateness_ms", to_seconds(done.max_lateness) * 1e3},
                                             {"foreign_frames", publisher.foreign_frames()}};
         fmt::print("{}\n", out.dump());
         return;
     }
     if (!options.quiet)
         fmt::print("{} frames published on bus '{}', {} of them late, by at most {:.3f} ms\n", publisher.sent(),
-                   options.bus.name, done.late, to_seconds(done.worst) * 1e3);
+                   options.bus.name, done.late, to_seconds(done.max_lateness) * 1e3);
     if (done.slips != 0)
         print_warning(
             fmt::format("The rack was more than a second behind real time {} times and did not catch up: the computer "

@@ -26,10 +26,10 @@ struct MarkOptions {
 };
 
 nlohmann::ordered_json mark_json(const mark::Marked& m) {
-    nlohmann::ordered_json out = {{"max_deviation_mm", m.deviation.worst_mm},
+    nlohmann::ordered_json out = {{"max_deviation_mm", m.deviation.max_mm},
                                   {"rms_mm", m.deviation.rms_mm},
-                                  {"max_deviation_at_mm", {m.deviation.worst_at.x, m.deviation.worst_at.y}},
-                                  {"max_deviation_at_s", m.deviation.worst_s},
+                                  {"max_deviation_at_mm", {m.deviation.max_at.x, m.deviation.max_at.y}},
+                                  {"max_deviation_at_s", m.deviation.max_s},
                                   {"missing_mm", m.deviation.missing_mm},
                                   {"marked_mm", m.marked_mm},
                                   {"duration_s", m.seconds},
@@ -51,7 +51,7 @@ nlohmann::ordered_json mark_json(const mark::Marked& m) {
                                 {"number", p.number},
                                 {"from_s", p.begin_s},
                                 {"to_s", p.end_s},
-                                {"max_deviation_mm", p.deviation.worst_mm},
+                                {"max_deviation_mm", p.deviation.max_mm},
                                 {"rms_mm", p.deviation.rms_mm},
                                 {"missing_mm", p.deviation.missing_mm},
                                 {"marked_mm", p.marked_mm}});
@@ -65,8 +65,8 @@ std::string json_text(const mark::MarkingOutcome& out) {
                                   {"marked", mark_json(out.on)}};
     if (out.off) all["without_correction"] = mark_json(*out.off);
     if (out.fits_factor) all["fits_times_the_velocity"] = *out.fits_factor;
-    const mark::FieldMargin room = mark::room_of(out, out.on);
-    all["field_margin"] = {{"mm", room.mm}, {"edge", room.edge}};
+    const mark::FieldMargin margin = mark::margin_of(out, out.on);
+    all["field_margin"] = {{"mm", margin.mm}, {"edge", margin.edge}};
     all["warnings"] = mark::warnings_of(out);
     all["notes"] = out.notes;
     return all.dump(2);

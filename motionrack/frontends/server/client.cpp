@@ -245,9 +245,9 @@ bool Client::due(Time now) {
     const auto passed = (now - next_) / period_ + 1;  // more than one if the thread was late
     next_ += passed * period_;
     periods_ += passed;
-    const bool room = pictures_ < service_.settings().limits.pictures_waiting;
-    lost_ += passed - room;
-    return room;
+    const bool is_queued = pictures_ < service_.settings().limits.pictures_waiting;
+    lost_ += passed - is_queued;
+    return is_queued;
 }
 
 void Client::send_picture(std::shared_ptr<const std::string> rest) {

@@ -146,7 +146,7 @@ class GrblPorts::Inside {
     void accept(tcp::socket socket) {
         error_code trouble;
         const tcp::endpoint from = socket.remote_endpoint(trouble);
-        if (trouble || !make_room()) return;
+        if (trouble || !close_idle()) return;
         socket.set_option(tcp::no_delay(true), trouble);
         auto visitor = std::make_shared<Visitor>();
         visitor->line = std::make_shared<TcpLine>(std::move(socket), settings_.waiting);
@@ -162,7 +162,7 @@ class GrblPorts::Inside {
         visitor->line->read_on();
     }
     /// Closes the oldest visitors that have not identified as senders when there are too many.
-    bool make_room() {
+    bool close_idle() {
         if (visitors_.size() <= settings_.observers) return true;
         const auto oldest =
             std::find_if(visitors_.begin(), visitors_.end(), [](const auto& visitor) { return !visitor->is_sender; });

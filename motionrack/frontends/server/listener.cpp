@@ -114,7 +114,7 @@ void PortListener::take_some() {
         if (error == asio::error::would_block) break;
         const bool is_full = error == asio::error::no_descriptors || error == asio::error::no_buffer_space ||
                              error == asio::error::no_memory || error.value() == ENFILE;
-        if (!is_full || make_room()) continue;  // that one has closed already, or a place is free now
+        if (!is_full || close_idle()) continue;  // that one has closed already, or a place is free now
         pause_.expires_after(tick_every);
         pause_.async_wait([this](error_code stopped) {
             if (!stopped && !ended_) accept();
@@ -124,7 +124,7 @@ void PortListener::take_some() {
     accept();
 }
 
-bool PortListener::make_room() {
+bool PortListener::close_idle() {
     return reserve_.give() || pool_->open_connections.end_a_caller();
 }
 

@@ -46,7 +46,7 @@ class PortListener {
   private:
     void accept();
     void take_some();
-    bool make_room();
+    bool close_idle();
     void take(boost::asio::ip::tcp::socket socket);
     void tick();
 

@@ -52,7 +52,7 @@ std::string run_problem(const MarkingJob& job, const Prepared& prepared, std::st
     if (!out) return error_problem(out.error(), text);
     for (const Marked* m : {&out->on, out->off ? &*out->off : nullptr}) {
         if (m == nullptr) continue;
-        if (!std::isfinite(m->deviation.worst_mm) || !std::isfinite(m->deviation.rms_mm) ||
+        if (!std::isfinite(m->deviation.max_mm) || !std::isfinite(m->deviation.rms_mm) ||
             !(m->duty >= 0 && m->duty <= 1.0001) || !(m->energy_j >= 0))
             return "the table has a number that is none";
     }

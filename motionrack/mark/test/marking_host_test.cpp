@@ -26,14 +26,14 @@ TEST(MarkLine, EachPartIsMarkedATrackDelayBehindItsEdge) {
         const PartMarked& part = out.on.parts[i];
         EXPECT_EQ(part.fate, PartOutcome::marked);
         EXPECT_NEAR(part.begin_s, (static_cast<double>(i) * 60 + 33.3) / 200, 2e-5);
-        EXPECT_LE(part.deviation.worst_mm, 0.005) << "a tick at the edge, one at the start, a count";
+        EXPECT_LE(part.deviation.max_mm, 0.005) << "a tick at the edge, one at the start, a count";
         EXPECT_NEAR(part.marked_mm, 40, 0.05);
         EXPECT_EQ(part.deviation.missing_mm, 0);
     }
-    EXPECT_LE(out.on.deviation.worst_mm, 0.005);
+    EXPECT_LE(out.on.deviation.max_mm, 0.005);
     // Without correction each part has the corners of the formula: 200 mm/s for 20 ms gives 4 mm.
     ASSERT_TRUE(out.off);
-    for (const PartMarked& part : out.off->parts) EXPECT_NEAR(part.deviation.worst_mm, 16, 0.1);
+    for (const PartMarked& part : out.off->parts) EXPECT_NEAR(part.deviation.max_mm, 16, 0.1);
 }
 
 TEST(MarkLine, EveryWayToFollowPartsIsRight) {
@@ -46,7 +46,7 @@ TEST(MarkLine, EveryWayToFollowPartsIsRight) {
                                             "\n[fly]\nmode = '" + mode +
                                             "'\n[parts]\ncount = 3\nspacing_mm = 50\ntrack_delay_mm = 20\n";
                     const MarkingOutcome out = run(job_of(job));
-                    EXPECT_LE(out.on.deviation.worst_mm, 0.0065) << job;
+                    EXPECT_LE(out.on.deviation.max_mm, 0.0065) << job;
                     EXPECT_EQ(out.on.deviation.missing_mm, 0) << job;
                 }
 }
@@ -61,7 +61,7 @@ TEST(MarkLine, PartsAroundATableAreMarkedInMotion) {
         ASSERT_EQ(out.on.parts.size(), 8u);
         for (const PartMarked& part : out.on.parts) {
             EXPECT_EQ(part.fate, PartOutcome::marked);
-            EXPECT_LE(part.deviation.worst_mm, 0.003) << start;
+            EXPECT_LE(part.deviation.max_mm, 0.003) << start;
             EXPECT_EQ(part.deviation.missing_mm, 0) << start;
         }
     }
@@ -101,7 +101,7 @@ TEST(MarkLine, TheCardStartsItselfAtEvenDistances) {
     for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_EQ(out.on.parts[i].fate, PartOutcome::marked);
         EXPECT_NEAR(out.on.parts[i].begin_s, static_cast<double>(i) * 60.012 / 200, 2.1e-5) << i;
-        EXPECT_LE(out.on.parts[i].deviation.worst_mm, 0.006) << i;
+        EXPECT_LE(out.on.parts[i].deviation.max_mm, 0.006) << i;
     }
     const MarkingOutcome lost = run(job_of(squares("count = 3\nspacing_mm = 10\nstart = 'equidistant'\n")));
     EXPECT_EQ(lost.on.parts[0].fate, PartOutcome::marked);
@@ -119,15 +119,15 @@ TEST(MarkLine, EachPartGetsItsNumber) {
     for (std::size_t i = 0; i < 5; ++i) {
         EXPECT_EQ(out.on.parts[i].number, 98 + 7 * static_cast<std::int64_t>(i));
         EXPECT_EQ(out.on.parts[i].drawing, i);
-        EXPECT_LE(out.on.parts[i].deviation.worst_mm, 0.004) << i;
+        EXPECT_LE(out.on.parts[i].deviation.max_mm, 0.004) << i;
         EXPECT_EQ(out.on.parts[i].deviation.missing_mm, 0) << i;
     }
     // The third part received another drawing than intended for the second.
     const Prepared prepared = *prepare(job, one_file(""));
     const PartMarked& third = out.on.parts[2];
     const auto points = std::span(out.on.points).subspan(third.first_point, third.points);
-    EXPECT_GT(parts::compare(points, prepared.of(1).segments).worst_mm, 0.3);
-    EXPECT_LE(parts::compare(points, prepared.of(2).segments).worst_mm, 0.004);
+    EXPECT_GT(parts::compare(points, prepared.of(1).segments).max_mm, 0.3);
+    EXPECT_LE(parts::compare(points, prepared.of(2).segments).max_mm, 0.004);
 }
 
 TEST(MarkLine, NumbersContinueWithTheNextPartThatIsMarked) {
@@ -144,7 +144,7 @@ TEST(MarkLine, NumbersContinueWithTheNextPartThatIsMarked) {
             EXPECT_EQ(out.on.parts[i].drawing, static_cast<std::size_t>(number)) << "it would have been the next";
         } else {
             EXPECT_EQ(out.on.parts[i].number, ++number);
-            EXPECT_LE(out.on.parts[i].deviation.worst_mm, 0.005);
+            EXPECT_LE(out.on.parts[i].deviation.max_mm, 0.005);
         }
     }
 }

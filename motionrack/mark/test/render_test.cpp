@@ -120,7 +120,7 @@ TEST(MarkWarning, ComesBeforeTheFieldOverflowsAndSaysHowMuchIsLeft) {
     const Shown over =
         shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nvelocity_mm_s = 900\n[fly]\nmode = 'encoder'\n");
     ASSERT_FALSE(over.out.on.overflows.empty());
-    EXPECT_LT(room_of(over.out, over.out.on).mm, 0);
+    EXPECT_LT(margin_of(over.out, over.out.on).mm, 0);
     EXPECT_TRUE(warnings_of(over.out).empty()) << "it is no warning any more";
 }
 

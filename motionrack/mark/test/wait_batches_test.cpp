@@ -57,13 +57,13 @@ TEST(Waits, ADrawingLongerThanTheFieldIsMarkedInMotion) {
     for (const char* fly : {"mode = 'encoder'", "mode = 'simulated'", "mode = 'mcbsp'"})
         for (const char* belt : {"velocity_mm_s = 150", "velocity_mm_s = -150\ndirection_deg = 180"}) {
             const MarkingOutcome out = run(job_of(long_job(belt, fly)), long_svg);
-            EXPECT_LE(out.on.deviation.worst_mm, 0.006) << fly << belt;
+            EXPECT_LE(out.on.deviation.max_mm, 0.006) << fly << belt;
             EXPECT_EQ(out.on.deviation.missing_mm, 0) << fly << belt;
             EXPECT_TRUE(out.on.overflows.empty()) << fly << belt;
             EXPECT_TRUE(out.drawing_in_field);
             ASSERT_TRUE(out.off);
-            EXPECT_GT(out.off->deviation.worst_mm, 1) << "pieces at their places, but sheared";
-            EXPECT_LT(out.off->deviation.worst_mm, 20);
+            EXPECT_GT(out.off->deviation.max_mm, 1) << "pieces at their places, but sheared";
+            EXPECT_LT(out.off->deviation.max_mm, 20);
         }
     // Without waits nearly all of it is outside the field.
     const MarkingOutcome none =
@@ -121,12 +121,12 @@ TEST(Waits, GoTogetherWithPartsAndProfiles) {
             long_svg);
     for (const PartMarked& part : parts.on.parts) {
         EXPECT_EQ(part.fate, PartOutcome::marked);
-        EXPECT_LE(part.deviation.worst_mm, 0.006);
+        EXPECT_LE(part.deviation.max_mm, 0.006);
         EXPECT_EQ(part.deviation.missing_mm, 0);
     }
     const MarkingOutcome profile =
         run(job_of(long_job("profile = [[0, 50], [1, 300], [2, 0], [3, 0], [4, 200]]", "mode = 'encoder'")), long_svg);
-    EXPECT_LE(profile.on.deviation.worst_mm, 0.008);
+    EXPECT_LE(profile.on.deviation.max_mm, 0.008);
     EXPECT_EQ(profile.on.deviation.missing_mm, 0);
 }
 
@@ -134,10 +134,10 @@ TEST(MarkSources, ASimulatedEncoderIsRightOnlyWhileTheBeltHasItsVelocity) {
     const std::string job =
         "[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nprofile = [[0, 100], [0.04, 100], [0.08, 60]]\n[fly]\n";
     const MarkingOutcome encoder = run(job_of(job + "mode = 'encoder'\n"));
-    EXPECT_LE(encoder.on.deviation.worst_mm, 0.003);
+    EXPECT_LE(encoder.on.deviation.max_mm, 0.003);
     const MarkingOutcome simulated = run(job_of(job + "mode = 'simulated'\nsimulated_velocity_mm_s = 100\n"));
     // 40 ms from 100 to 60 mm/s: 0.04 * 20 = 0.8 mm less way than supposed at 80 ms.
-    EXPECT_NEAR(simulated.on.deviation.worst_mm, 0.8, 0.08);
+    EXPECT_NEAR(simulated.on.deviation.max_mm, 0.8, 0.08);
     EXPECT_THAT(errors_of(job + "mode = 'simulated'\n"), HasSubstr("simulated_velocity in [fly]"));
     EXPECT_THAT(errors_of(job + "mode = 'encoder'\nsimulated_velocity_mm_s = 100\n"), HasSubstr("j.toml:8:27"));
 }
@@ -148,13 +148,13 @@ TEST(MarkSources, ALateMcBspSourceIsMadeUpForAtConstantVelocity) {
                "\n[sender]\nbits_per_unit = 10000\ndelay_us = 1500\n[fly]\nmode = 'mcbsp'\n" + offset + "\n";
     };
     const std::string belt = "[belt]\nvelocity_mm_s = 200", table = "[table]\nvelocity_deg_s = 60\ncentre_y_mm = -50";
-    EXPECT_NEAR(run(job_of(job(belt, ""))).on.deviation.worst_mm, 0.3, 0.005) << "1.5 ms at 200 mm/s";
-    EXPECT_LE(run(job_of(job(belt, "offset_us = 1500"))).on.deviation.worst_mm, 0.005);
-    EXPECT_GT(run(job_of(job(table, ""))).on.deviation.worst_mm, 0.05);
-    EXPECT_LE(run(job_of(job(table, "offset_us = 1500"))).on.deviation.worst_mm, 0.004);
+    EXPECT_NEAR(run(job_of(job(belt, ""))).on.deviation.max_mm, 0.3, 0.005) << "1.5 ms at 200 mm/s";
+    EXPECT_LE(run(job_of(job(belt, "offset_us = 1500"))).on.deviation.max_mm, 0.005);
+    EXPECT_GT(run(job_of(job(table, ""))).on.deviation.max_mm, 0.05);
+    EXPECT_LE(run(job_of(job(table, "offset_us = 1500"))).on.deviation.max_mm, 0.004);
     // What is left when the velocity changes: 1000 mm/s2 for 40 ms are 40 mm/s more, over 1.5 ms.
     const std::string rising = "[belt]\nprofile = [[0, 200], [0.04, 200], [0.08, 240]]";
-    EXPECT_NEAR(run(job_of(job(rising, "offset_us = 1500"))).on.deviation.worst_mm, 0.06, 0.008);
+    EXPECT_NEAR(run(job_of(job(rising, "offset_us = 1500"))).on.deviation.max_mm, 0.06, 0.008);
     EXPECT_THAT(errors_of(job(belt, "tracking_error_us = 100")), HasSubstr("encoders only"));
 }
 

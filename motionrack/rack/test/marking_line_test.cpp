@@ -93,7 +93,7 @@ TEST(MarkingLine, ASquareOnTheMovingPartIsASquareOnlyWithCorrection) {
         std::vector<parts::DrawnSegment> drawing;
         for (int i = 0; i < 4; ++i) drawing.push_back({corners[i], corners[i + 1]});
         const parts::Deviation off = marked.compare(drawing);
-        EXPECT_LT(off.worst_mm, 0.003) << corrected;
+        EXPECT_LT(off.max_mm, 0.003) << corrected;
         EXPECT_EQ(off.missing_mm, 0) << corrected;
         EXPECT_NEAR(bench.part("head.marked_mm"), corrected ? 40 : 8 + 12 + 2 * std::hypot(10, 2), 0.05);
         EXPECT_NEAR(bench.part("head.energy_j"), 20 * 0.08, 0.02);

@@ -80,7 +80,7 @@ TEST(Monitor, HoldsTheMachineAgainstTheProgramAndNotThePlan) {
     watch.plan(10, 0.5, 0, 3, side - cut);
     watch.plan(10, 10, 1, 4, side);
     const Monitor& monitor = watch.run(2 * side);
-    EXPECT_NEAR(monitor.worst().mm, 0.25, 0.02);
+    EXPECT_NEAR(monitor.max_deviation().mm, 0.25, 0.02);
     ASSERT_EQ(monitor.breaches().size(), 1u);
     const Breach& breach = monitor.breaches().front();
     EXPECT_EQ(breach.kind, BreachKind::deviation);
@@ -99,7 +99,7 @@ TEST(Monitor, LetsCornersBeCutWithinTheirTolerance) {
     watch.line(10, 10, 4);
     watch.plan(10, 10, 0, 3, Instant{});
     const Monitor& monitor = watch.run(each_pulse * 12'800);
-    EXPECT_NEAR(monitor.worst().mm, 0.047, 0.003);
+    EXPECT_NEAR(monitor.max_deviation().mm, 0.047, 0.003);
     EXPECT_TRUE(monitor.breaches().empty());
 }
 
@@ -110,7 +110,7 @@ TEST(Monitor, HoldsOneLineForSeveralMovesAgainstEachOfThem) {
     watch.line(10, 0, 8);
     watch.plan(10, 0, 0, 7, Instant{});
     const Monitor& monitor = watch.run(side);
-    EXPECT_NEAR(monitor.worst().mm, 0.2, 0.002) << "the place where the moves meet";
+    EXPECT_NEAR(monitor.max_deviation().mm, 0.2, 0.002) << "the place where the moves meet";
     ASSERT_EQ(monitor.breaches().size(), 1u);
     EXPECT_NEAR(to_seconds(monitor.breaches()[0].at), to_seconds(side / 2), 0.002);
 }

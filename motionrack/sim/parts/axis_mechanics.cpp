@@ -110,13 +110,13 @@ void AxisMechanics::strain(double rate, Instant now) {
     }
     const double full_step = static_cast<double>(motor_.settings().microsteps);
     const double away = static_cast<double>(pulses_at(now) - s.pulses) - s.rate_hz * to_seconds(now - s.since);
-    const double room = full_step - std::fabs(away), apart = std::fabs(rate - s.rate_hz);
-    if (room > 0 && apart == 0) {  // the pulses have returned to the rotor's rate before a step loss
+    const double margin = full_step - std::fabs(away), apart = std::fabs(rate - s.rate_hz);
+    if (margin > 0 && apart == 0) {  // the pulses have returned to the rotor's rate before a step loss
         s.deadline = never;
         s.steady_hz = rate;
         s.steady_at = now;
     } else {
-        s.deadline = now + from_seconds(room > 0 ? std::min(room / apart, max_strain_s) : 0);
+        s.deadline = now + from_seconds(margin > 0 ? std::min(margin / apart, max_strain_s) : 0);
     }
     motor_.note_rate(rate);
     put_off();

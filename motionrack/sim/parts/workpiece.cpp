@@ -100,7 +100,7 @@ Deviation compare(std::span<const MarkedPoint> points, std::span<const DrawnSegm
             const double off = wanted.distance(at);
             weights += mm / looks;
             squares += off * off * (mm / looks);
-            if (off > out.worst_mm) out.worst_mm = off, out.worst_at = at, out.worst_s = points[i].begun_s;
+            if (off > out.max_mm) out.max_mm = off, out.max_at = at, out.max_s = points[i].begun_s;
         }
     }
     if (weights > 0) out.rms_mm = std::sqrt(squares / weights);

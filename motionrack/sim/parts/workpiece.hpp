@@ -34,10 +34,10 @@ struct DrawnSegment {
 
 /// Deviation of the marks from a drawing.
 struct Deviation {
-    double worst_mm = 0, rms_mm = 0;  ///< over points along the marks, weighted by length
-    sim::Spot worst_at;               ///< on the part
-    double worst_s = 0;               ///< start of that segment
-    double missing_mm = 0;            ///< length of the drawing with no mark within `near_mm`
+    double max_mm = 0, rms_mm = 0;  ///< over points along the marks, weighted by length
+    sim::Spot max_at;               ///< on the part
+    double max_s = 0;               ///< start of that segment
+    double missing_mm = 0;          ///< length of the drawing with no mark within `near_mm`
 };
 
 /// Compares marked points with the drawing and the reverse, at steps of `step_mm`.

@@ -190,9 +190,9 @@ TEST(Workpiece, TheDeviationFromADrawingNamesTheWorstPlaceAndWhatIsMissing) {
     piece.add({10, 10}, {0, 10}, 1, 2);
     piece.finish();
     const Deviation d = piece.compare(square);
-    EXPECT_NEAR(d.worst_mm, 0.29, 0.011);
-    EXPECT_GT(d.worst_at.x, 9);
-    EXPECT_EQ(d.worst_s, 0);
+    EXPECT_NEAR(d.max_mm, 0.29, 0.011);
+    EXPECT_GT(d.max_at.x, 9);
+    EXPECT_EQ(d.max_s, 0);
     EXPECT_GT(d.rms_mm, 0.05);
     EXPECT_NEAR(d.missing_mm, 10 + 6.4,
                 0.5);  // the left side, and the part of the slanted one with a deviation above 0.1 mm

@@ -71,7 +71,7 @@ TEST(WriteEventsCsv, TellsBlocksWarningsWorstDeviationAndStopInOrderOfTime) {
     data.moves[1].kind = "arc";
     data.moves[1].start = 1;
     data.warnings = {{1.5, 4, "Y, close to \"+\""}, {-1, 0, "No instant"}, {7, 0, "Later than the path"}};
-    data.worst = ReportMaxDeviation{0.25, 0.5, 3, {5, 0.25, 5}};
+    data.max_deviation = ReportMaxDeviation{0.25, 0.5, 3, {5, 0.25, 5}};
     data.stop = ReportStop{2, 4, {10, 4, 5}, "Limit switch"};
     const Scratch scratch;
     ASSERT_TRUE(write_events_csv(data, scratch.path("e.csv")));

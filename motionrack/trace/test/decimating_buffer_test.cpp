@@ -17,14 +17,14 @@ TEST(DecimatingBuffer, KeepsAllWhileTheyAreFew) {
 
 TEST(DecimatingBuffer, KeepsTheMaxDeviationWhereverItIs) {
     constexpr int all = 1000;
-    for (int worst = 0; worst < all; ++worst) {
+    for (int max_error = 0; max_error < all; ++max_error) {
         DecimatingBuffer<int> keeper(16);
-        for (int i = 0; i < all; ++i) keeper.add(i, i == worst ? 7 : 1);
+        for (int i = 0; i < all; ++i) keeper.add(i, i == max_error ? 7 : 1);
         ASSERT_LE(keeper.samples().size(), 16u);
         ASSERT_EQ(keeper.samples().size(), keeper.deviations().size());
         const auto found = std::max_element(keeper.deviations().begin(), keeper.deviations().end());
-        ASSERT_EQ(*found, 7) << "of sample " << worst;
-        ASSERT_LE(keeper.samples()[static_cast<std::size_t>(found - keeper.deviations().begin())], worst)
+        ASSERT_EQ(*found, 7) << "of sample " << max_error;
+        ASSERT_LE(keeper.samples()[static_cast<std::size_t>(found - keeper.deviations().begin())], max_error)
             << "it is told at the sample that it became one with";
     }
 }

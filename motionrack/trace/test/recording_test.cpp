@@ -80,7 +80,7 @@ TEST(Recording, MakesTheReportOfItsRunAgain) {
     plain.samples[3].axes[0].accel = std::nanf("");
     plain.end.report.moves.push_back({3, "G1 X1", "line", 1.5, "mm", 0.1, 0.2, 1, 2, 3, 0.004});
     plain.end.report.planned.push_back({{{0, 0, 0}, {1.0 / 3, 2, 3}}, true, 4});
-    plain.end.report.worst = ReportMaxDeviation{0.01, 0.5, 3, {1, 2, 3}};
+    plain.end.report.max_deviation = ReportMaxDeviation{0.01, 0.5, 3, {1, 2, 3}};
     plain.end.report.notes = {"a <b> & \"c\""};
     ASSERT_TRUE(plain.write(scratch.path("a.h5")));
     const auto reader = RecordingReader::open(scratch.path("a.h5"));
@@ -116,9 +116,9 @@ RC_GTEST_PROP(ReportJson, KeepsEveryBitOfANumber, (double value, std::int64_t wh
 
 TEST(ReportJson, ReadsTheMaximumDeviationUnderItsFormerName) {
     const auto data = report_from_json(R"({"worst": {"mm": 0.5, "line": 3}})");
-    ASSERT_TRUE(data && data->worst);
-    EXPECT_EQ(data->worst->mm, 0.5);
-    EXPECT_EQ(data->worst->line, 3);
+    ASSERT_TRUE(data && data->max_deviation);
+    EXPECT_EQ(data->max_deviation->mm, 0.5);
+    EXPECT_EQ(data->max_deviation->line, 3);
 }
 
 // ---- truncated

@@ -46,7 +46,7 @@ ReportData circle(std::size_t samples) {
     data.axes[0].pulses_sent = 1234567;
     data.axes[0].lost_steps = 3;
     data.tolerance_mm = 0.01;
-    data.worst = ReportMaxDeviation{0.004, 12.48, 7, {20, 0, 0}};
+    data.max_deviation = ReportMaxDeviation{0.004, 12.48, 7, {20, 0, 0}};
     data.moves = {{7, "G3 X20 I-20", "arc", 125.664, "mm", 0, 12.48, 0, 10.5, 0, 0.004}};
     data.warnings = {{3.25, 7, "Close to the limit."}};
     data.notes = {"Cutting forces."};
@@ -195,7 +195,7 @@ TEST(Report, NumbersThatAreNotFiniteAreNeverWritten) {
     data.axes[0].max_velocity = not_a_number;
     data.axes[1].max_position = infinity;
     data.axes[0].peak_accel = data.axes[0].actual_end = data.tolerance_mm = infinity;
-    data.worst = ReportMaxDeviation{not_a_number, not_a_number, 0, {not_a_number, 0, 0}};
+    data.max_deviation = ReportMaxDeviation{not_a_number, not_a_number, 0, {not_a_number, 0, 0}};
     data.moves[0].duration = data.moves[0].length = not_a_number;
     data.warnings[0].seconds = not_a_number;
     const std::string page = report_html(data);

@@ -12,7 +12,7 @@ ReportData corner() {
     ReportData data;
     data.planned = {{{{0, 0, 5}, {50, 20, 5}}, true, 1}, {{{50, 20, 5}, {50, 80, 5}, {10, 80, 5}}, false, 2}};
     data.driven = {{0, 0, 5}, {50, 20, 5}, {50, 80, 5}, {10, 80, 5}};
-    data.worst = ReportMaxDeviation{0.004, 1, 2, {50, 80, 5}};
+    data.max_deviation = ReportMaxDeviation{0.004, 1, 2, {50, 80, 5}};
     data.axes.resize(2);
     data.axes[0].name = std::string("X");
     data.axes[0].max_position = 100;

@@ -14,6 +14,6 @@ int main() {
     if (!prepared) return 2;
     const auto outcome = run_job(*read.job, *prepared);
     if (!outcome) return 3;
-    std::printf("%s within 5 um, %zu pictures\n", outcome->on.deviation.worst_mm < 0.005 ? "marked" : "not",
+    std::printf("%s within 5 um, %zu pictures\n", outcome->on.deviation.max_mm < 0.005 ? "marked" : "not",
                 pictures_of(*prepared, *outcome).size());
 }

@@ -119,10 +119,11 @@ struct Axis {
     /// after it. Returns the maximum true distance from the profile at the frames' instants.
     template <class Profile>
     double run(const Profile& profile, double seconds, std::size_t late = 0, Duration skew = Duration{0}) {
-        double worst = 0;
+        double max_error = 0;
         for (const Instant until = kernel.now() + from_seconds(seconds); next < until; next += servo_period) {
             kernel.run_until(next);
-            worst = std::max(worst, std::fabs(profile.at(to_seconds(next)).position_nm - stage.position_nm(next)));
+            max_error =
+                std::max(max_error, std::fabs(profile.at(to_seconds(next)).position_nm - stage.position_nm(next)));
             kernel.run_until(next + skew);
             under_way.push_back(latch(next));
             kernel.run_until(next + microseconds(20));
@@ -131,7 +132,7 @@ struct Axis {
             under_way.pop_front();
             drive(loop.on_frame(frame, wanted_at(profile, to_seconds(frame.instant()), to_seconds(servo_period))));
         }
-        return worst;
+        return max_error;
     }
     void drive(double volts) {
         kernel.set_wire(stage.drive_wire(), static_cast<int>(std::lround(volts * 1e6)));
@@ -155,11 +156,11 @@ TEST(ServoLoop, FollowsAScanWithinAFewTensOfNanometres) {
     axis.loop.close(axis.scale.count(axis.kernel.now()));
     axis.run(scan, 0.1);
     axis.loop.reset_error();
-    const double worst = axis.run(scan, 1.0);
+    const double max_error = axis.run(scan, 1.0);
     EXPECT_LT(axis.loop.error().peak_nm, 60);
     EXPECT_LT(axis.loop.error().rms_nm(), 20);
     EXPECT_GT(axis.loop.error().rms_nm(), 0.5) << "a scale of 4.9 nm cannot be followed better";
-    EXPECT_LT(worst, 60);
+    EXPECT_LT(max_error, 60);
     EXPECT_EQ(axis.loop.error().frames, 5'000u);
     EXPECT_EQ(axis.loop.unused(), 0u);
     EXPECT_TRUE(axis.scale.counts_valid());
@@ -182,19 +183,19 @@ TEST(ServoLoop, SettlesAfterAStepAndHoldsAgainstFriction) {
 
 TEST(ServoLoop, LosesStabilityWithLateFrames) {
     const StepProfile steps(0, 1e5, 1, 1, limits);
-    double worst[4] = {};
+    double max_error[4] = {};
     for (std::size_t late = 0; late < 4; ++late) {
         Axis axis;
         axis.run(steps, 0.6, late);
         axis.loop.reset_error();
         axis.run(steps, 0.2, late);
-        worst[late] = axis.loop.error().peak_nm;
+        max_error[late] = axis.loop.error().peak_nm;
     }
-    EXPECT_LT(worst[0], 10) << "at rest: two counts";
-    EXPECT_LT(worst[1], 20);
-    EXPECT_GT(worst[3], 1e4) << "a loop of 250 Hz has no margin left with three periods";
-    EXPECT_LE(worst[0], worst[1]);
-    EXPECT_LT(worst[1], worst[3]);
+    EXPECT_LT(max_error[0], 10) << "at rest: two counts";
+    EXPECT_LT(max_error[1], 20);
+    EXPECT_GT(max_error[3], 1e4) << "a loop of 250 Hz has no margin left with three periods";
+    EXPECT_LE(max_error[0], max_error[1]);
+    EXPECT_LT(max_error[1], max_error[3]);
     // While it moves, one period matters too.
     double moving[3] = {};
     for (std::size_t late = 0; late < 3; ++late) {
@@ -213,9 +214,9 @@ TEST(ServoLoop, CountsOfAnotherInstantAreAnErrorThatTheLoopCannotSee) {
         axis.loop.close(axis.scale.count(axis.kernel.now()));
         axis.run(scan, 0.12, 0, microseconds(us));
         axis.loop.reset_error();
-        const double worst = axis.run(scan, 0.1, 0, microseconds(us));
+        const double max_error = axis.run(scan, 0.1, 0, microseconds(us));
         EXPECT_LT(axis.loop.error().peak_nm, 20);
-        EXPECT_NEAR(worst, static_cast<double>(us) * 80, 20) << "80 mm/s are 80 nm in a microsecond";
+        EXPECT_NEAR(max_error, static_cast<double>(us) * 80, 20) << "80 mm/s are 80 nm in a microsecond";
     }
 }
 

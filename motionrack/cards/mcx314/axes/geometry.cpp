@@ -18,9 +18,9 @@ namespace {
 /// True if the chip must be able to move an axis on this path. Along a line this includes axes with a tiny share: of
 /// many lines with less than a pulse each, one has the pulse. Beside an arc, which the chip draws itself if no other
 /// axis moves, only a full pulse counts.
-bool has_part(const AxisMap& map, const control::Geometry& path, const control::Point& worst, std::size_t axis) {
+bool has_part(const AxisMap& map, const control::Geometry& path, const control::Point& components, std::size_t axis) {
     constexpr double min_of_line = 1e-6;  // pulses: more than the rounding of coordinates
-    const double scale = map.limits[axis].pulses_per_unit, pulses = worst[axis] * path.length * scale;
+    const double scale = map.limits[axis].pulses_per_unit, pulses = components[axis] * path.length * scale;
     if (path.shape != control::PathShape::arc) return pulses >= min_of_line;
     if (axis == path.first || axis == path.second) return pulses >= 0.5;
     return nearest_pulse(path.start[axis], scale) != nearest_pulse(path.end[axis], scale);
@@ -29,13 +29,13 @@ bool has_part(const AxisMap& map, const control::Geometry& path, const control::
 }  // namespace
 
 DriveMotion drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes) {
-    const control::Point worst = control::max_tangent_components(path);
+    const control::Point components = control::max_tangent_components(path);
     DriveMotion out;
     int moving = 0, last = -1;
     bool rotary = false, beside_plane = false;
     double scale = 0, min_scale = 1e300;
-    for (std::size_t i = 0; i < worst.size(); ++i) {
-        if (map.channel[i] < 0 || !(axes != 0 ? (axes >> i & 1) != 0 : has_part(map, path, worst, i))) continue;
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        if (map.channel[i] < 0 || !(axes != 0 ? (axes >> i & 1) != 0 : has_part(map, path, components, i))) continue;
         ++moving;
         last = map.channel[i];
         out.channels |= static_cast<std::uint8_t>(1u << last);

@@ -152,11 +152,11 @@ Result<Rounded> to_pulses(const Scale& scale, double distance) {
     return Rounded{distance, pulses / scale.pulses_per_unit, static_cast<std::int64_t>(pulses)};
 }
 
-double RealSetting::worst_error() const {
-    double worst = 0;
+double RealSetting::max_error() const {
+    double out = 0;
     for (const Rounded* value : {&speed, &start_speed, &acceleration, &deceleration, &jerk})
-        worst = std::max(worst, std::fabs(value->error()));
-    return worst;
+        out = std::max(out, std::fabs(value->error()));
+    return out;
 }
 
 std::string RealSetting::text() const {

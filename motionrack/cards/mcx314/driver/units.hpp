@@ -42,7 +42,7 @@ struct RealSetting {
     bool s_curve = false;
     bool asymmetric = false;  ///< D is not A
     /// Largest magnitude of the relative errors.
-    double worst_error() const;
+    double max_error() const;
     /// One line per value: "speed 33.3 -> V 6660: 33.3004 (+0.001 %)".
     std::string text() const;
     /// The curve in register units, without pulses.

@@ -121,7 +121,7 @@ TEST(Units, TheTextTellsEveryRounding) {
     for (const char* part : {"R ", "speed 33.3 -> V ", "start speed 1 -> SV ", "acceleration 400 -> A ",
                              "deceleration 300 -> D ", "jerk 5000 -> K "})
         EXPECT_NE(text.find(part), std::string::npos) << text;
-    EXPECT_NEAR(set->worst_error(), 0.0078, 0.0001) << "K is a small number: " << text;
+    EXPECT_NEAR(set->max_error(), 0.0078, 0.0001) << "K is a small number: " << text;
 }
 
 TEST(Units, AnAxisMovesInMillimetresAsPlanned) {

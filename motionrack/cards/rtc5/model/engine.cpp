@@ -66,28 +66,28 @@ void Engine::piece(std::int64_t end, Sink* sink) {
     advance(static_cast<std::int64_t>(n));
 }
 
-/// Computes the positions of the next ticks: up to `room`, or to a command of the pipeline.
-std::size_t Engine::produce(std::size_t room) {
+/// Computes the positions of the next ticks: up to `capacity`, or to a command of the pipeline.
+std::size_t Engine::produce(std::size_t capacity) {
     std::size_t n = 0;
-    while (n < room) {
-        n = micro_vectors(n, room);
-        if (n == room) break;
+    while (n < capacity) {
+        n = micro_vectors(n, capacity);
+        if (n == capacity) break;
         if (state_.lists.paused) {
             state_.wobbel.offset = {};
-            kernels::hold(&scratch_->x[n], &scratch_->y[n], room - n, state_.p);
-            return room;
+            kernels::hold(&scratch_->x[n], &scratch_->y[n], capacity - n, state_.p);
+            return capacity;
         }
         if (!next_step(n)) break;
-        if (n == 0 && (state_.starts.asked_count > 0 || samples_now())) room = 1;
+        if (n == 0 && (state_.starts.asked_count > 0 || samples_now())) capacity = 1;
         // The last tick is executed even without observers.
-        if (state_.activity.kind == ActivityKind::none && until_rest_) room = n + 1;
-        n = fill(n, room);
+        if (state_.activity.kind == ActivityKind::none && until_rest_) capacity = n + 1;
+        n = fill(n, capacity);
     }
     return n;
 }
 
 /// Fast path for dense lists: consecutive micro-vectors that do not switch the laser.
-std::size_t Engine::micro_vectors(std::size_t n, std::size_t room) {
+std::size_t Engine::micro_vectors(std::size_t n, std::size_t capacity) {
     Lists& l = state_.lists;
     Activity& a = state_.activity;
     if (!l.running || l.paused || l.skip || a.kind != ActivityKind::line || a.done != a.steps ||
@@ -95,7 +95,7 @@ std::size_t Engine::micro_vectors(std::size_t n, std::size_t room) {
         return n;
     const auto silent = [](double at) { return !(at >= 0 && at < half_us_per_tick); };
     const std::int64_t first = l.next,
-                       end = std::min<std::int64_t>(l.begin[3], first + static_cast<std::int64_t>(room - n));
+                       end = std::min<std::int64_t>(l.begin[3], first + static_cast<std::int64_t>(capacity - n));
     std::int64_t at = first;
     for (; at < end; ++at, ++n) {
         const Command& c = memory_[static_cast<std::size_t>(at)];
@@ -114,10 +114,10 @@ std::size_t Engine::micro_vectors(std::size_t n, std::size_t room) {
     return n;
 }
 
-std::size_t Engine::fill(std::size_t n, std::size_t room) {
+std::size_t Engine::fill(std::size_t n, std::size_t capacity) {
     Activity& a = state_.activity;
     double *const x = &scratch_->x[n], *const y = &scratch_->y[n];
-    std::size_t m = room - n;
+    std::size_t m = capacity - n;
     switch (a.kind) {
         case ActivityKind::none:
             break;

@@ -221,9 +221,9 @@ class Engine {
     // engine.cpp
     void begin_tick();
     void piece(std::int64_t end, Sink* sink);
-    std::size_t produce(std::size_t room);
-    std::size_t micro_vectors(std::size_t n, std::size_t room);
-    std::size_t fill(std::size_t n, std::size_t room);
+    std::size_t produce(std::size_t capacity);
+    std::size_t micro_vectors(std::size_t n, std::size_t capacity);
+    std::size_t fill(std::size_t n, std::size_t capacity);
     bool skip(std::int64_t limit);
     void advance(std::int64_t n);
     Point position_of(const Activity& a, std::int64_t done) const;

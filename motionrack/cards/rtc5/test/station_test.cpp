@@ -61,9 +61,9 @@ parts::StationSettings belt(double mm_s) {
 TEST(Rtc5Station, ASquareOnABeltIsDistortedWithoutCorrectionAndRightWithIt) {
     Machine without(belt(100)), with(belt(100));
     const auto off = without.square({}), on = with.square({*list_command(Op::set_fly_x, {station_k / 1000})});
-    EXPECT_GT(off.worst_mm, 5);
+    EXPECT_GT(off.max_mm, 5);
     // One count and one tick.
-    EXPECT_LE(on.worst_mm, 0.0021);
+    EXPECT_LE(on.max_mm, 0.0021);
     EXPECT_EQ(on.missing_mm, 0);
     EXPECT_EQ(with.card.get_marking_info(), 0u);
 }
@@ -73,8 +73,8 @@ TEST(Rtc5Station, LineSpeedMayChangeWithAnEncoderButNotWithTheSimulatedOne) {
     settings.track.profile = {{0, 50}, {0.05, 150}, {0.1, 80}};
     Machine with(settings), simulated(settings);
     ASSERT_TRUE(simulated.card.simulate_encoder(1));
-    EXPECT_LE(with.square({*list_command(Op::set_fly_x, {station_k / 1000})}).worst_mm, 0.003);
-    EXPECT_GT(simulated.square({*list_command(Op::set_fly_x, {station_k * 100 / 1e6})}).worst_mm, 0.5);
+    EXPECT_LE(with.square({*list_command(Op::set_fly_x, {station_k / 1000})}).max_mm, 0.003);
+    EXPECT_GT(simulated.square({*list_command(Op::set_fly_x, {station_k * 100 / 1e6})}).max_mm, 0.5);
 }
 
 TEST(Rtc5Station, TheTrackingErrorTakesTheMirrorsLagOffTheBelt) {
@@ -90,7 +90,7 @@ TEST(Rtc5Station, TheTrackingErrorTakesTheMirrorsLagOffTheBelt) {
     EXPECT_NEAR(plain.station.galvo().lag_us(), 150, 0.1);
     ahead.card.set_tracking_error(15, 0);
     for (Machine* m : {&plain, &ahead}) m->laser_delay = 300;  // the laser follows the mirrors
-    const double late = plain.square({start}).worst_mm, right = ahead.square({start}).worst_mm;
+    const double late = plain.square({start}).max_mm, right = ahead.square({start}).max_mm;
     EXPECT_NEAR(late, 0.075, 0.012) << "150 us at 500 mm/s";
     EXPECT_LT(right, 0.02);
 }
@@ -101,8 +101,8 @@ TEST(Rtc5Station, ATableMadeFromTheLensMakesTheFieldFlat) {
     Machine bent(settings), flat(settings);
     ASSERT_TRUE(flat.card.load_correction(table_of(*correction_of(*settings.lens)), 1));
     ASSERT_TRUE(flat.card.select_cor_table(1, 0));
-    EXPECT_GT(bent.square({}).worst_mm, 0.2);
-    EXPECT_LT(flat.square({}).worst_mm, 0.001);
+    EXPECT_GT(bent.square({}).max_mm, 0.2);
+    EXPECT_LT(flat.square({}).max_mm, 0.001);
 }
 
 TEST(Rtc5Station, PositionWordsCorrectLikeAnEncoderAndTheirDelayShifts) {
@@ -110,8 +110,8 @@ TEST(Rtc5Station, PositionWordsCorrectLikeAnEncoderAndTheirDelayShifts) {
     prompt.sender = *parts::SerialPositionSource::make(prompt.station.track(), {.bits_per_mm = 1000});
     late.sender = *parts::SerialPositionSource::make(late.station.track(), {.bits_per_mm = 1000, .delay_us = 2000});
     const Command start = *list_command(Op::set_fly_x_pos, {station_k / 1000});
-    EXPECT_LE(prompt.square({start}).worst_mm, 0.0021);
-    EXPECT_NEAR(late.square({start}).worst_mm, 0.2, 0.003) << "2 ms at 100 mm/s";
+    EXPECT_LE(prompt.square({start}).max_mm, 0.0021);
+    EXPECT_NEAR(late.square({start}).max_mm, 0.2, 0.003) << "2 ms at 100 mm/s";
 }
 
 TEST(Rtc5Station, ARotaryTableIsFollowed) {
@@ -119,7 +119,7 @@ TEST(Rtc5Station, ARotaryTableIsFollowed) {
     settings.track = {.rotary = true, .centre_mm = {-30, 0}, .profile = {{0, 60}}, .counts_per_unit = 10'000};
     Machine machine(settings);
     ASSERT_TRUE(machine.card.set_rot_center({-30 * station_k, 0}));
-    EXPECT_LE(machine.square({*list_command(Op::set_fly_rot, {3'600'000})}).worst_mm, 0.002);
+    EXPECT_LE(machine.square({*list_command(Op::set_fly_rot, {3'600'000})}).max_mm, 0.002);
 }
 
 TEST(Rtc5Station, EnergyAMillimetreIsPowerOverSpeedOnThePart) {

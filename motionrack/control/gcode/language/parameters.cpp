@@ -20,7 +20,7 @@ void Parameters::set(const std::string& name, double value) {
     (is_global(name) ? global_ : calls_.empty() ? main_ : calls_.back().names)[name] = value;
 }
 
-std::size_t Parameters::room_for(std::string_view name) const {
+std::size_t Parameters::capacity_for(std::string_view name) const {
     const std::size_t kept = names_of(name).size();
     return kept < max_names ? max_names - kept : 0;
 }

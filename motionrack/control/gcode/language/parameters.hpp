@@ -30,7 +30,7 @@ class Parameters {
     std::optional<double> named(std::string_view name) const;
     void set(const std::string& name, double value);
     /// Returns the number of names that can be added in the scope of this one.
-    std::size_t room_for(std::string_view name) const;
+    std::size_t capacity_for(std::string_view name) const;
 
     /// Starts a call with its own names and #1 .. #30 (the arguments, or 0). Returns false at max_call_depth.
     bool enter(std::span<const double> arguments);

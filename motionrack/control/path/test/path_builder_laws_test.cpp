@@ -177,9 +177,9 @@ TEST(CurveLaws, TheProgrammedFeedIsNeverExceeded) {
 }
 
 TEST(CurveLaws, TheCurveStaysWithinTheToleranceOfThePath) {
-    double worst = 0;
-    const auto shown = [&worst] { return worst > used_share; };
-    for_programs(1000, shown, [&worst](const Case& one) {
+    double max_error = 0;
+    const auto shown = [&max_error] { return max_error > used_share; };
+    for_programs(1000, shown, [&max_error](const Case& one) {
         const std::vector<Geometry> paths = paths_of(one.moves);
         for (const CubicSegment& piece : pieces_of(one.items)) {
             for (int k = 0; k < 4; ++k) {
@@ -194,14 +194,14 @@ TEST(CurveLaws, TheCurveStaysWithinTheToleranceOfThePath) {
                     const Geometry& path = paths[static_cast<std::size_t>(i)];
                     best = std::min(best, distance_to(path, p[0], p[1], p[2]) / tolerance);
                 }
-                worst = std::max(worst, best);
+                max_error = std::max(max_error, best);
                 ASSERT_LE(best, 1 + 1e-6)
                     << "line " << piece.line << " u " << piece.begin << " + " << piece.length * k / 4;
             }
         }
     });
-    RecordProperty("worst", std::to_string(worst));
-    EXPECT_GT(worst, used_share);
+    RecordProperty("worst", std::to_string(max_error));
+    EXPECT_GT(max_error, used_share);
 }
 
 /// Returns the smallest share of the tolerances, XYZ and ABC together, within which a point lies on a line.
@@ -226,9 +226,9 @@ double part_of_tolerances(const Geometry& line, const Point& at, double toleranc
 }
 
 TEST(CurveLaws, RotaryAxesStayWithinTheirToleranceAtTheSamePlace) {
-    double worst = 0;
-    const auto shown = [&worst] { return worst > used_share; };
-    for_programs(300, shown, [&worst](const Case& one) {
+    double max_error = 0;
+    const auto shown = [&max_error] { return max_error > used_share; };
+    for_programs(300, shown, [&max_error](const Case& one) {
         const std::vector<Geometry> paths = paths_of(one.moves);
         for (const CubicSegment& piece : pieces_of(one.items)) {
             double best = std::numeric_limits<double>::infinity();
@@ -246,11 +246,11 @@ TEST(CurveLaws, RotaryAxesStayWithinTheirToleranceAtTheSamePlace) {
                 best = std::min(best, part_of_tolerances(path, at, tolerance, rotary));
             }
             if (arcs) continue;
-            worst = std::max(worst, best);
+            max_error = std::max(max_error, best);
             ASSERT_LE(best, 1 + 1e-6) << "line " << piece.line << " u " << piece.begin;
         }
     });
-    EXPECT_GT(worst, used_share);
+    EXPECT_GT(max_error, used_share);
 }
 
 }  // namespace

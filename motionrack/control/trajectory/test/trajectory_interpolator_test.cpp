@@ -96,9 +96,9 @@ TEST(TrajectoryInterpolator, PassesNoCornerByMoreThanItsToleranceAndAPulse) {
             program.back().feed = 2;
         }
         const std::vector<PlannedMove> moves = moves_of(program);
-        double worst = 0;
-        for (const Move& move : program) worst = std::max(worst, distance_to(moves, move.end));
-        EXPECT_LT(worst, tolerance + 1 / curve_test::pulses) << "seed " << seed;
+        double max_error = 0;
+        for (const Move& move : program) max_error = std::max(max_error, distance_to(moves, move.end));
+        EXPECT_LT(max_error, tolerance + 1 / curve_test::pulses) << "seed " << seed;
     }
 }
 

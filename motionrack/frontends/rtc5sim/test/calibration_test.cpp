@@ -67,7 +67,7 @@ double worst_of_a_mark(double direction_deg, Correct correct) {
     jump_abs(0, 0), mark_abs(static_cast<long>(10 * k), 0), fly_return(0, 0);
     set_end_of_list();
     execute_list(1);
-    double worst = 0, furthest = -1e9, nearest = 1e9;
+    double max_error = 0, furthest = -1e9, nearest = 1e9;
     UINT status = 1, position = 0;
     while (status & 1) {
         get_status(&status, &position);
@@ -77,11 +77,11 @@ double worst_of_a_mark(double direction_deg, Correct correct) {
         if (laser == 0) continue;
         const Mm way = gone(direction_deg);
         const double on_x = x / k - way.x, on_y = y / k - way.y;
-        worst = std::fmax(worst, std::fabs(on_y));
+        max_error = std::fmax(max_error, std::fabs(on_y));
         furthest = std::fmax(furthest, on_x), nearest = std::fmin(nearest, on_x);
     }
     drive(0);
-    return std::fmax(worst, std::fmax(std::fabs(furthest - 10), std::fabs(nearest)));
+    return std::fmax(max_error, std::fmax(std::fabs(furthest - 10), std::fabs(nearest)));
 }
 
 TEST(Rtc5simCalibration, ReadingBeforeAnythingWasPutThereSaysWhatMustComeFirst) {
