@@ -6,10 +6,10 @@
 
 namespace motionrack {
 
-std::string EdgeConflict::said(std::string_view way, std::string_view max_distance) const {
+std::string EdgeConflict::text_with(std::string_view distance, std::string_view max_distance) const {
     return fmt::format(
-        "it became active {} {} the position at which it {} in this search; a sound switch deviates by at most {}", way,
-        beyond ? "beyond" : "before", with_release ? "was released" : "became active", max_distance);
+        "it became active {} {} the position at which it {} in this search; a sound switch deviates by at most {}",
+        distance, beyond ? "beyond" : "before", with_release ? "was released" : "became active", max_distance);
 }
 
 void SwitchEdges::begin(std::optional<double> hysteresis, double repeats) {
@@ -19,14 +19,14 @@ void SwitchEdges::begin(std::optional<double> hysteresis, double repeats) {
     released_.reset();
 }
 
-void SwitchEdges::released(double way, double within) {
-    const Span here{way, way + within};
+void SwitchEdges::released(double distance, double within) {
+    const Span here{distance, distance + within};
     released_ = released_ ? Span{std::min(released_->low, here.low), std::max(released_->high, here.high)} : here;
 }
 
-std::optional<EdgeConflict> SwitchEdges::acted(double way, double within) {
+std::optional<EdgeConflict> SwitchEdges::acted(double distance, double within) {
     if (!hysteresis_) return {};
-    const Span here{way - within, way};
+    const Span here{distance - within, distance};
     std::optional<EdgeConflict> out;
     if (released_) out = conflict(here, *released_, *hysteresis_);
     if (out) out->with_release = true;

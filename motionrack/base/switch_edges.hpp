@@ -24,11 +24,11 @@ struct EdgeConflict {
     /// "it became active .. beyond the position at which it was released ..", with distances formatted by `text_of`.
     template <typename TextOf>
     std::string text(TextOf text_of) const {
-        return said(text_of(apart), text_of(limit));
+        return text_with(text_of(apart), text_of(limit));
     }
 
   private:
-    std::string said(std::string_view way, std::string_view max_distance) const;
+    std::string text_with(std::string_view distance, std::string_view max_distance) const;
 };
 
 class SwitchEdges {
@@ -36,9 +36,9 @@ class SwitchEdges {
     /// Begins a search. Without the hysteresis edges are not compared.
     void begin(std::optional<double> hysteresis, double repeats);
     /// Records a release on the way away: at `way`, or up to `within` before.
-    void released(double way, double within);
+    void released(double distance, double within);
     /// Records an activation on the way towards the switch, likewise; compares it with earlier edges of this search.
-    std::optional<EdgeConflict> acted(double way, double within);
+    std::optional<EdgeConflict> acted(double distance, double within);
 
   private:
     struct Span {

@@ -124,9 +124,9 @@ double helix_square_near(const Geometry& path, const HelixPoint& point, double a
     for (int step = 0; step < 6; ++step) {
         const SinCos apart = sin_cos(angle - point.angle);
         const double slope = rho * apart.sin - rise * (point.height - rise * angle);
-        const double bend = rho * apart.cos + rise * rise;
-        if (!(bend > 0)) break;
-        const double next = std::clamp(angle - slope / bend, 0.0, whole);
+        const double second_derivative = rho * apart.cos + rise * rise;
+        if (!(second_derivative > 0)) break;
+        const double next = std::clamp(angle - slope / second_derivative, 0.0, whole);
         const bool settled = std::fabs(next - angle) < 1e-12;
         angle = next;
         if (settled) break;

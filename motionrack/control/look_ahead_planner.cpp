@@ -126,20 +126,20 @@ bool are_alike(const Move& a, const Move& b) {
 /// Returns true if the junctions inside the merged line are within tolerance and in order along it.
 bool LookAheadPlanner::is_on_the_way(const Geometry& line, double tolerance_mm) const {
     double squared = 0, reached = 0;
-    Point way = {};
-    for (std::size_t i = 0; i < way.size(); ++i) {
-        way[i] = line.end[i] - line.start[i];
-        squared += way[i] * way[i];
+    Point delta = {};
+    for (std::size_t i = 0; i < delta.size(); ++i) {
+        delta[i] = line.end[i] - line.start[i];
+        squared += delta[i] * delta[i];
     }
     for (std::size_t k = 0; k <= between_size_; ++k) {
-        const Point& place = k < between_size_ ? between_[k] : position_;
+        const Point& position = k < between_size_ ? between_[k] : position_;
         double along = 0, off = 0;
-        for (std::size_t i = 0; i < way.size(); ++i) along += (place[i] - line.start[i]) * way[i];
+        for (std::size_t i = 0; i < delta.size(); ++i) along += (position[i] - line.start[i]) * delta[i];
         along /= squared;
         if (along <= reached || along >= 1) return false;
         reached = along;
-        for (std::size_t i = 0; i < way.size(); ++i) {
-            const double beside = place[i] - line.start[i] - along * way[i];
+        for (std::size_t i = 0; i < delta.size(); ++i) {
+            const double beside = position[i] - line.start[i] - along * delta[i];
             if (i < 3)
                 off += beside * beside;
             else if (std::fabs(beside) > half_pulse_[i])

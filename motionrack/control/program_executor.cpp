@@ -99,7 +99,7 @@ Result<void> ProgramExecutor::submit() {
     while (true) {
         if (!held_ && is_stop_requested()) held_ = planner_->hold();
         if (!planner_->pull(planned)) return held_ ? stopped() : Result<void>{};
-        tell(planned);
+        report_move(planned);
         MOTIONRACK_CHECK(axes_.follow(planned));
     }
 }
@@ -114,7 +114,7 @@ Move ProgramExecutor::programmed(const Move& read) {
 }
 
 /// Notifies the caller of a planned move before it is submitted.
-void ProgramExecutor::tell(const PlannedMove& planned) {
+void ProgramExecutor::report_move(const PlannedMove& planned) {
     summary_.add(planned);
     if (on_block_) on_block_(blocks_, planned);
     ++blocks_;
@@ -164,11 +164,11 @@ Result<void> ProgramExecutor::probe(const gcode::CanonCall& step, gcode::Program
     MOTIONRACK_CHECK(axes_.finish());
     MOTIONRACK_TRY(const PlannedMove planned,
                    plan_single_move(axes_, settings_.gcode.limits, settings_.accel_reserve, programmed(step.move)));
-    tell(planned);
+    report_move(planned);
     MOTIONRACK_TRY(const ProbeResult outcome, axes_.probe(planned, gcode::probe_leaves(step.probe)));
-    const Point stands = axes_.commanded_position();
-    reader.set_probe_result(outcome.hit, outcome.at, stands);
-    plan_from(stands);
+    const Point stopped_at = axes_.commanded_position();
+    reader.set_probe_result(outcome.hit, outcome.at, stopped_at);
+    plan_from(stopped_at);
     if (run.probes.size() < settings_.event_limit) run.probes.push_back({step.line, step.probe, outcome});
     const std::string what = probe_text(step.probe, outcome);
     note({step.line, blocks_ - 1, what}, run);

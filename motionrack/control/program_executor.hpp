@@ -80,7 +80,7 @@ class ProgramExecutor {
     Result<void> stopped();
     Result<void> take(const gcode::CanonCall& step, ProgramResult& run);
     Move programmed(const Move& read);
-    void tell(const PlannedMove& planned);
+    void report_move(const PlannedMove& planned);
     Result<void> probe(const gcode::CanonCall& step, gcode::ProgramReader& reader, ProgramResult& run);
     void plan_from(const Point& start);
     void note(ProgramEvent event, ProgramResult& run);

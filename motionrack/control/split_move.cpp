@@ -27,9 +27,9 @@ WeighedPart part_beside_plane(const Geometry& path, const Point& position, const
     WeighedPart out;
     for (std::size_t i = 0; i < position.size(); ++i) {
         if (i == path.first || i == path.second) continue;
-        const double way = (path.end[i] - path.start[i]) * pulses[i];
-        out.part += (position[i] - path.start[i]) * pulses[i] * way;
-        out.weight += way * way;
+        const double delta = (path.end[i] - path.start[i]) * pulses[i];
+        out.part += (position[i] - path.start[i]) * pulses[i] * delta;
+        out.weight += delta * delta;
     }
     if (out.weight > 0) out.part /= out.weight;
     return out;

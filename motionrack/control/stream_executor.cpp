@@ -139,12 +139,12 @@ void StreamExecutor::add_piece() {
 // ---- operator requests
 
 void StreamExecutor::hold() {
-    if (wish_ == Wish::stop || state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) return;
+    if (request_ == Request::stop || state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) return;
     if (!path_begun_ && !has_work()) {
         state_ = ExecutionState::feed_hold;
         return;
     }
-    wish_ = Wish::hold;
+    request_ = Request::hold;
     stop_flag_ = !interpolator_ && !last_probe_.runs;
 }
 
@@ -160,7 +160,7 @@ void StreamExecutor::stop() {
         if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) state_ = ExecutionState::idle;
         return;
     }
-    wish_ = Wish::stop;
+    request_ = Request::stop;
     stop_flag_ = !interpolator_ || last_probe_.runs;
 }
 
@@ -173,8 +173,8 @@ void StreamExecutor::set_overrides(double feed, double rapid) {
 
 Result<ExecutionState> StreamExecutor::drive(bool more_may_come) {
     if (interpolator_) return drive_trajectory(more_may_come);
-    const bool brakes = wish_ != Wish::none;
-    if (brakes && !path_begun_) return stand();
+    const bool brakes = request_ != Request::none;
+    if (brakes && !path_begun_) return enter_standstill();
     if (!brakes && (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)) return state_;
     pull_steps();
     if (!brakes && (feed_ != feed_wanted_ || rapid_ != rapid_wanted_)) {
@@ -197,7 +197,7 @@ Result<ExecutionState> StreamExecutor::drive(bool more_may_come) {
     const bool keep_back = !rest_follows && !brakes && (path_begun_ ? time_left() : planner_.size() > 0);
     if (planner_.size() <= 1 && keep_back) return state_ = ExecutionState::waiting;
     if (PlannedMove planned; planner_.pull_early(planned)) return submit(planned);
-    return path_begun_ ? finish_path() : stand();
+    return path_begun_ ? finish_path() : enter_standstill();
 }
 
 Result<void> StreamExecutor::fill_planner() {
@@ -260,20 +260,20 @@ Result<ExecutionState> StreamExecutor::finish_path() {
     path_begun_ = false;
     if (interpolator_) pop_driven(interpolator_->generator().first_pending_move());
     while (handed_ > 0) pop();
-    if (single_block_ && has_work() && wish_ == Wish::none) return state_ = ExecutionState::paused;
-    if (interpolator_ && wish_ == Wish::hold && !has_work()) interpolator_->generator().resume();
-    return stand();
+    if (single_block_ && has_work() && request_ == Request::none) return state_ = ExecutionState::paused;
+    if (interpolator_ && request_ == Request::hold && !has_work()) interpolator_->generator().resume();
+    return enter_standstill();
 }
 
 /// Handles standstill at the end of the submitted path.
-Result<ExecutionState> StreamExecutor::stand() {
-    const Wish wish = std::exchange(wish_, Wish::none);
+Result<ExecutionState> StreamExecutor::enter_standstill() {
+    const Request request = std::exchange(request_, Request::none);
     stop_flag_ = false;
-    if (wish == Wish::stop) {
+    if (request == Request::stop) {
         forget();
         return state_;
     }
-    if (wish == Wish::hold && has_work()) return state_ = ExecutionState::feed_hold;
+    if (request == Request::hold && has_work()) return state_ = ExecutionState::feed_hold;
     while (!entries_.empty() && !entries_.front().is_move()) {
         if (entries_.front().is_probe()) return probe();
         const bool pause = entries_.front().step.kind == CanonCallKind::pause;
@@ -284,8 +284,8 @@ Result<ExecutionState> StreamExecutor::stand() {
 }
 
 Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
-    const bool held = !interpolator_ && error.kind == ErrorKind::stopped && wish_ == Wish::hold;
-    wish_ = Wish::none;
+    const bool held = !interpolator_ && error.kind == ErrorKind::stopped && request_ == Request::hold;
+    request_ = Request::none;
     stop_flag_ = false;
     path_begun_ = false;
     if (!held) {
@@ -300,7 +300,7 @@ Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
 void StreamExecutor::forget() {
     // Reading a card's position may take time, in which lines and a hold or stop come: they are discarded, too.
     const Point position = axes_->commanded_position();
-    wish_ = Wish::none;
+    request_ = Request::none;
     stop_flag_ = false;
     entries_.clear();
     cutting_.reset();

@@ -22,8 +22,8 @@ TrajectoryInterpolator StreamExecutor::make_interpolator(const Point& position) 
 }
 
 Result<ExecutionState> StreamExecutor::drive_trajectory(bool more_may_come) {
-    if (wish_ != Wish::none) {
-        if (!path_begun_) return stand();
+    if (request_ != Request::none) {
+        if (!path_begun_) return enter_standstill();
         interpolator_->generator().hold();
     } else if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) {
         return state_;
@@ -43,7 +43,7 @@ Result<ExecutionState> StreamExecutor::drive_trajectory(bool more_may_come) {
         trajectory_ends_ = true;
     }
     if (PlannedMove planned; interpolator_->pull(planned, true)) return submit(planned);
-    const bool more_follows = !trajectory_ends_ && !rest_follows && wish_ == Wish::none;
+    const bool more_follows = !trajectory_ends_ && !rest_follows && request_ == Request::none;
     if (path_begun_) {
         // The interpolator is stationary: at the end of the known path, or on hold.
         Result<ExecutionState> finished = finish_path();
@@ -51,12 +51,12 @@ Result<ExecutionState> StreamExecutor::drive_trajectory(bool more_may_come) {
     } else {
         pop_driven(interpolator_->generator().first_pending_move());  // dwells of zero duration
     }
-    return more_follows ? state_ = ExecutionState::waiting : stand();
+    return more_follows ? state_ = ExecutionState::waiting : enter_standstill();
 }
 
 /// Returns true while a single first move waits for the line after it, so that it need not end at standstill.
 bool StreamExecutor::trajectory_may_wait(bool rest_follows) const {
-    return !rest_follows && !path_begun_ && wish_ == Wish::none && planned_ == 1 && !trajectory_ends_;
+    return !rest_follows && !path_begun_ && request_ == Request::none && planned_ == 1 && !trajectory_ends_;
 }
 
 Result<void> StreamExecutor::fill_interpolator() {

@@ -219,7 +219,7 @@ void FrameValidator::note_other(const PublisherIdentity& source, Instant now) {
         *at = OtherSource{source, 0, now, false};
     }
     ++at->frames;
-    at->heard = now;
+    at->last_received = now;
 }
 
 /// A frame of the owner after one of another source: both publish. A source that follows a silent one does not cause a
@@ -236,7 +236,7 @@ void FrameValidator::find_conflicts(Instant now) {
 
 void FrameValidator::forget_silent(Instant now) {
     for (std::size_t i = 0; i < other_count_;) {
-        if (now - others_[i].heard <= release()) {
+        if (now - others_[i].last_received <= release()) {
             ++i;
             continue;
         }

@@ -51,7 +51,7 @@ struct ValidatorSettings {
 struct OtherSource {
     PublisherIdentity source;
     std::uint64_t frames = 0;
-    Instant heard{};
+    Instant last_received{};
     bool in_conflict = false;
 };
 

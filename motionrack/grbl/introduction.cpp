@@ -50,7 +50,7 @@ bool is_text(std::string_view bytes) {
 
 }  // namespace
 
-Introduction::Verdict Introduction::hear(std::string_view bytes) {
+Introduction::Verdict Introduction::receive(std::string_view bytes) {
     bytes_ += bytes;
     if (!is_text(bytes_)) return Verdict::stranger;
     if (std::all_of(bytes_.begin(), bytes_.end(), is_greeting)) return bytes_.empty() ? Verdict::open : Verdict::sender;

@@ -23,7 +23,7 @@ class Introduction {
     static constexpr std::size_t max_open_bytes = 512;
 
     /// Requires an open verdict.
-    Verdict hear(std::string_view bytes);
+    Verdict receive(std::string_view bytes);
     /// Returns all bytes received and clears them.
     std::string take_bytes() { return std::exchange(bytes_, {}); }
 

@@ -123,7 +123,7 @@ void GrblSession::open_door() {
         return reset();
     }
     if (now == State::alarm || now == State::check || now == State::sleep || now == State::door) return;
-    say("Check Door");
+    send_message("Check Door");
     if (now == State::jog) machine_.cancel();
     if (now == State::run) (void)machine_.hold();
     door_ = true;
@@ -142,8 +142,8 @@ void GrblSession::resume() {
 /// the sender requests, not with an implicit reset of the Grbl.
 void GrblSession::reset(bool is_asked_for) {
     const MachineState state = machine_.state();
-    const bool stands = operate::idle(state), latched = machine_.rack().stop_latch().latched();
-    const Result<void> may = stands || !settings_.may_stop ? Result<void>() : settings_.may_stop();
+    const bool is_stationary = operate::idle(state), latched = machine_.rack().stop_latch().latched();
+    const Result<void> may = is_stationary || !settings_.may_stop ? Result<void>() : settings_.may_stop();
     const int number = state == MachineState::homing ? homing_alarm_ : is_moving(machine_) ? alarm_reset : alarm_none;
     if (may && number != alarm_none) alarm(number, false);
     homing_alarm_ = alarm_homing_reset;
@@ -159,11 +159,11 @@ void GrblSession::reset(bool is_asked_for) {
     if (may && (is_asked_for || !latched)) {
         machine_.set_overrides(1, 1);
         resets_ = true;
-        machine_.reset(stands && !latched ? operate::StopOrigin{} : settings_.source("^X"));
+        machine_.reset(is_stationary && !latched ? operate::StopOrigin{} : settings_.source("^X"));
         resets_ = false;
     }
     begin_again(true);
-    if (!may) say(may.error().message);
+    if (!may) send_message(may.error().message);
 }
 
 void GrblSession::begin_again(bool after_reset) {
@@ -195,7 +195,7 @@ void GrblSession::watch_machine() {
         alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial)
                                        : alarm_of_stop(machine_),
               true);
-        say(machine_.status().reason);
+        send_message(machine_.status().reason);
     }
 }
 

@@ -61,10 +61,12 @@ void Pen::quadratic_to(Spot control, Spot p) {
 void Pen::cubic_to(Spot control1, Spot control2, Spot p) {
     const Spot q[4] = {to_mm_(at_), to_mm_(control1), to_mm_(control2), to_mm_(p)};
     // A chord of 1/n of the curve deviates by an eighth of the maximum second derivative over n squared.
-    double bend = 0;
+    double second_difference = 0;
     for (int i = 0; i < 2; ++i)
-        bend = std::max(bend, distance({q[i].x + q[i + 2].x, q[i].y + q[i + 2].y}, {2 * q[i + 1].x, 2 * q[i + 1].y}));
-    const int n = static_cast<int>(std::clamp(std::ceil(std::sqrt(0.75 * bend / tolerance_)), 1.0, 100'000.0));
+        second_difference = std::max(
+            second_difference, distance({q[i].x + q[i + 2].x, q[i].y + q[i + 2].y}, {2 * q[i + 1].x, 2 * q[i + 1].y}));
+    const int n =
+        static_cast<int>(std::clamp(std::ceil(std::sqrt(0.75 * second_difference / tolerance_)), 1.0, 100'000.0));
     for (int i = 1; i < n && complete(); ++i) {
         const double t = static_cast<double>(i) / n, s = 1 - t;
         const double w[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};

@@ -55,7 +55,7 @@ void check_pace(const TomlNode& root, const MarkingJob& job, rack::Problems& pro
     check_steps(root, "fly", "tracking_error_us", job.fly.tracking_error_us, 10, problems);
 }
 
-bool stands(const MarkingJob& job) {
+bool is_stationary(const MarkingJob& job) {
     const auto profile = job.track().profile;
     return std::all_of(profile.begin(), profile.end(), [](const parts::VelocityPoint& p) { return p.velocity == 0; });
 }
@@ -89,7 +89,7 @@ void check_fly(const TomlNode& root, const MarkingJob& job, rack::Problems& prob
         wrong("wait_mode", "Waits need a belt; on a table mark [parts] one after the other.");
     else if (fly.mode == FlyMode::off)
         wrong("wait_mode", "Waits need a correction that follows the part; choose a mode.");
-    else if (stands(job) || turns_back(job))
+    else if (is_stationary(job) || turns_back(job))
         wrong("wait_mode", "Waits need a moving belt that never reverses.");
     else if (fly.mode == FlyMode::mcbsp && quarter != std::floor(quarter))
         wrong("wait_mode",
@@ -113,7 +113,7 @@ void check_parts(const TomlNode& root, const MarkingJob& job, rack::Problems& pr
         problems.error(table.key_location,
                        "McBSP words have absolute positions, which no command zeroes at a start, so only the first of "
                        "several parts would be correct; use mode encoder, or one part without [parts].");
-    if (stands(job) || turns_back(job))
+    if (is_stationary(job) || turns_back(job))
         problems.error(
             table.key_location,
             "Parts need a moving belt or table that never reverses; give [belt] or [table] such a velocity.");

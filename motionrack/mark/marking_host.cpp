@@ -135,18 +135,18 @@ Result<void> MarkingHost::find_edges() {
     };
     std::int64_t low = 0;
     for (std::size_t i = 0; i < (parts.start == PartStart::equidistant ? 1 : parts.size()); ++i) {
-        const double way = parts.way(i) - parts.track_delay;
+        const double travel = parts.travel(i) - parts.track_delay;
         std::int64_t high = max_ticks;
-        if (gone(high) < way)
+        if (gone(high) < travel)
             return fail(
                 ErrorKind::refused,
                 fmt::format("Part {} does not reach the sensor within {:g} s: the belt moves {:.6g} until then, the "
                             "part is {:.6g} away. Nothing was marked; use fewer parts or a faster belt.",
-                            i + 1, max_seconds, gone(high), way));
+                            i + 1, max_seconds, gone(high), travel));
         std::int64_t min_tick = low;
         while (min_tick < high) {
             const std::int64_t middle = min_tick + (high - min_tick) / 2;
-            gone(middle) >= way ? high = middle : min_tick = middle + 1;
+            gone(middle) >= travel ? high = middle : min_tick = middle + 1;
         }
         edges_.push_back(low = high);
     }

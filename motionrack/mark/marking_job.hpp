@@ -84,7 +84,7 @@ struct PartsSettings {
         return first_number + static_cast<std::int64_t>(marked) * number_step;
     }
     /// Belt distance until part `i` reaches its marking position.
-    double way(std::size_t i) const { return (at.empty() ? static_cast<double>(i) * spacing : at[i]) + track_delay; }
+    double travel(std::size_t i) const { return (at.empty() ? static_cast<double>(i) * spacing : at[i]) + track_delay; }
 };
 
 struct MarkingJob {

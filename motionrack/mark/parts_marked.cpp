@@ -13,8 +13,8 @@ double seconds(std::int64_t tick) {
 }
 
 /// Belt distance until the part reaches its marking position.
-double way_of(const MarkingJob& job, std::size_t part) {
-    return job.parts ? job.parts->way(part) * job.sense() : 0;
+double travel_of(const MarkingJob& job, std::size_t part) {
+    return job.parts ? job.parts->travel(part) * job.sense() : 0;
 }
 
 PartOutcome fate_of(rtc5::StartFate fate) {
@@ -32,7 +32,7 @@ PartOutcome fate_of(rtc5::StartFate fate) {
 Affine shown_place(const MarkingJob& job, const Prepared& prepared, const parts::Conveyor& track, std::size_t part) {
     if (!job.parts || part == 0) return {};
     if (track.settings().rotary) {
-        const double turn = (way_of(job, 0) - way_of(job, part)) * (pi / 180);
+        const double turn = (travel_of(job, 0) - travel_of(job, part)) * (pi / 180);
         const SinCos t = sin_cos(turn);
         const Spot c = track.settings().centre_mm;
         return Affine{1, 0, 0, 1, c.x, c.y}.after({t.cos, t.sin, -t.sin, t.cos, 0, 0}).after({1, 0, 0, 1, -c.x, -c.y});
@@ -70,7 +70,7 @@ parts::Deviation together(const std::vector<PartMarked>& all) {
 
 void share_out(const MarkingJob& job, const Prepared& prepared, const std::vector<PartRun>& runs,
                const parts::Conveyor& track, std::span<const parts::MarkedPoint> points, Marked& out) {
-    const auto own_place = [&](Spot belt, double way) { return way == 0 ? belt : track.carried(belt, way); };
+    const auto own_place = [&](Spot belt, double travel) { return travel == 0 ? belt : track.carried(belt, travel); };
     PartMarked none;
     none.fate = PartOutcome::not_started;
     out.parts.assign(job.parts ? job.parts->size() : 1, none);
@@ -89,11 +89,11 @@ void share_out(const MarkingJob& job, const Prepared& prepared, const std::vecto
     for (std::size_t i = 0; i < begun.size(); ++i) {
         PartMarked& part = out.parts[begun[i].part];
         const double until = i + 1 < begun.size() ? seconds(begun[i + 1].begin) : 1e300;
-        const double way = way_of(job, begun[i].part);
+        const double travel = travel_of(job, begun[i].part);
         part.first_point = at;
         for (; at < points.size() && points[at].begun_s < until; ++at) {
             parts::MarkedPoint own = points[at];
-            own.at = own_place(own.at, way);
+            own.at = own_place(own.at, travel);
             if (!own.first && out.points.size() > part.first_point) {
                 const Spot before = out.points.back().at;
                 part.marked_mm += std::sqrt((own.at.x - before.x) * (own.at.x - before.x) +
@@ -104,7 +104,7 @@ void share_out(const MarkingJob& job, const Prepared& prepared, const std::vecto
         part.points = at - part.first_point;
         for (Overflow& o : out.overflows)
             if (o.from_s >= part.begin_s && o.from_s < until)
-                o.part_no = begun[i].part, o.part = own_place(o.part, way);
+                o.part_no = begun[i].part, o.part = own_place(o.part, travel);
     }
     for (std::size_t i = 0; i < out.parts.size(); ++i) out.parts[i].shown = shown_place(job, prepared, track, i);
     for (PartMarked& part : out.parts)

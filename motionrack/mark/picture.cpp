@@ -51,11 +51,11 @@ Spot nearest_point(std::span<const parts::DrawnSegment> segments, Spot p) {
     Spot best = p;
     double min_distance2 = std::numeric_limits<double>::infinity();
     for (const parts::DrawnSegment& s : segments) {
-        const Spot way{s.to.x - s.from.x, s.to.y - s.from.y};
-        const double length2 = way.x * way.x + way.y * way.y;
+        const Spot delta{s.to.x - s.from.x, s.to.y - s.from.y};
+        const double length2 = delta.x * delta.x + delta.y * delta.y;
         const double t =
-            length2 > 0 ? std::clamp(((p.x - s.from.x) * way.x + (p.y - s.from.y) * way.y) / length2, 0.0, 1.0) : 0;
-        const Spot on{s.from.x + t * way.x, s.from.y + t * way.y};
+            length2 > 0 ? std::clamp(((p.x - s.from.x) * delta.x + (p.y - s.from.y) * delta.y) / length2, 0.0, 1.0) : 0;
+        const Spot on{s.from.x + t * delta.x, s.from.y + t * delta.y};
         const double off = (on.x - p.x) * (on.x - p.x) + (on.y - p.y) * (on.y - p.y);
         if (off < min_distance2) min_distance2 = off, best = on;
     }

@@ -109,16 +109,16 @@ void put_fly(List& list, const MarkingJob& job, const Prepared& prepared, const 
 void put_offset(List& list, const MarkingJob& job, const ConveyorTracking& following) {
     constexpr double before_fly = 4;
     if (job.fly.offset_us == 0 || !following.corrects) return;
-    const double way = following.track.profile[0].velocity * job.fly.offset_us * 1e-6;
+    const double travel = following.track.profile[0].velocity * job.fly.offset_us * 1e-6;
     Spot offset;
     if (following.track.rotary) {
-        const SinCos t = sin_cos(way * (pi / 180));
+        const SinCos t = sin_cos(travel * (pi / 180));
         const Spot c = following.track.centre_mm;
-        list.put(Op::set_angle_list, {before_fly, way, 0});
+        list.put(Op::set_angle_list, {before_fly, travel, 0});
         offset = {c.x - (t.cos * c.x - t.sin * c.y), c.y - (t.sin * c.x + t.cos * c.y)};
     } else {
         const Direction d = direction_of(following.track);
-        offset = {way * d.x, way * d.y};
+        offset = {travel * d.x, travel * d.y};
     }
     list.put(Op::set_offset_list, {before_fly, list.bits(offset.x), list.bits(offset.y), 0});
 }
@@ -144,8 +144,8 @@ void put_stroke(List& list, const Stroke& stroke, Spot shift, bool jump) {
 }
 
 /// Waits until the belt has moved this distance.
-void put_wait(List& list, const MarkingJob& job, const ConveyorTracking& following, double way) {
-    const double unit = counts_of(job, following, way), rising = unit < 0 ? -1 : 1;
+void put_wait(List& list, const MarkingJob& job, const ConveyorTracking& following, double travel) {
+    const double unit = counts_of(job, following, travel), rising = unit < 0 ? -1 : 1;
     if (following.mode == FlyMode::mcbsp)
         list.put(Op::wait_for_mcbsp, {direction_of(following.track).x != 0 ? 0.0 : 1.0, unit, rising});
     else
@@ -166,11 +166,11 @@ Result<void> put_batches(List& list, const MarkingJob& job, const Prepared& prep
     const Spot movement{d.x * sense, d.y * sense};
     MOTIONRACK_TRY(const std::vector<WaitBatch> batches, batches_of(drawing, field, movement));
     for (const WaitBatch& batch : batches) {
-        const Spot way{movement.x * batch.at_mm, movement.y * batch.at_mm}, begin = batch.strokes[0].from;
-        const Spot shift = following.corrects ? Spot{} : way;
+        const Spot travel{movement.x * batch.at_mm, movement.y * batch.at_mm}, begin = batch.strokes[0].from;
+        const Spot shift = following.corrects ? Spot{} : travel;
         const bool waits = batch.at_mm > 0;
         if (waits) {
-            const double x = list.bits(begin.x + way.x), y = list.bits(begin.y + way.y);
+            const double x = list.bits(begin.x + travel.x), y = list.bits(begin.y + travel.y);
             following.corrects ? list.put(Op::park_position, {0, x, y}) : list.put(Op::jump_abs, {x, y});
             put_wait(list, job, following, batch.at_mm);
             if (following.corrects) list.put(Op::park_return, {1, list.bits(begin.x), list.bits(begin.y)});
@@ -224,9 +224,9 @@ double counts_per_unit(const MarkingJob& job, const ConveyorTracking& following)
     }
 }
 
-double counts_of(const MarkingJob& job, const ConveyorTracking& following, double way) {
+double counts_of(const MarkingJob& job, const ConveyorTracking& following, double travel) {
     const double unit = counts_per_unit(job, following);
-    return std::floor(way * (following.mode == FlyMode::simulated ? std::fabs(unit) : unit * job.sense()) + 0.5);
+    return std::floor(travel * (following.mode == FlyMode::simulated ? std::fabs(unit) : unit * job.sense()) + 0.5);
 }
 
 Result<Prepared> prepare(const MarkingJob& job, const Load& load) {

@@ -45,7 +45,7 @@ ConveyorTracking following_of(const MarkingJob& job, double factor = 1);
 /// Card units per mm or degree of movement; 0: none.
 double counts_per_unit(const MarkingJob& job, const ConveyorTracking& following);
 /// Whole counts of a belt distance, signed.
-double counts_of(const MarkingJob& job, const ConveyorTracking& following, double way);
+double counts_of(const MarkingJob& job, const ConveyorTracking& following, double travel);
 
 /// Returns the list for the part with mark index `marked`, including set_end_of_list. Errors: refused if the card does
 /// not accept a speed, position or scale, or the drawing never enters the field.

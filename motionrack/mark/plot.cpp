@@ -21,7 +21,7 @@ constexpr double min_width_mm = 1e-4;
 /// Clips a -> b to the box (Liang-Barsky); false if it is outside.
 bool clip(const Box& box, Spot& a, Spot& b) {
     double begin = 0, end = 1;
-    const Spot way{b.x - a.x, b.y - a.y};
+    const Spot delta{b.x - a.x, b.y - a.y};
     const auto side = [&](double along, double distance) {
         if (along == 0) return distance >= 0;
         const double at = distance / along;
@@ -31,12 +31,12 @@ bool clip(const Box& box, Spot& a, Spot& b) {
             end = std::min(end, at);
         return begin <= end;
     };
-    if (!side(-way.x, a.x - box.low.x) || !side(way.x, box.high.x - a.x) || !side(-way.y, a.y - box.low.y) ||
-        !side(way.y, box.high.y - a.y))
+    if (!side(-delta.x, a.x - box.low.x) || !side(delta.x, box.high.x - a.x) || !side(-delta.y, a.y - box.low.y) ||
+        !side(delta.y, box.high.y - a.y))
         return false;
     const Spot from = a;
-    if (begin > 0) a = {from.x + begin * way.x, from.y + begin * way.y};
-    if (end < 1) b = {from.x + end * way.x, from.y + end * way.y};
+    if (begin > 0) a = {from.x + begin * delta.x, from.y + begin * delta.y};
+    if (end < 1) b = {from.x + end * delta.x, from.y + end * delta.y};
     return true;
 }
 

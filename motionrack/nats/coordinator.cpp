@@ -37,14 +37,14 @@ class Gatherer {
             if (!some) break;
         }
         MOTIONRACK_CHECK(offer());
-        GatherClock::time_point heard = GatherClock::now();
+        GatherClock::time_point last_reply = GatherClock::now();
         auto max_wait = min_wait;
         while (!done() && !stop_) {
             // Short waits, so that Ctrl-C takes effect.
             MOTIONRACK_TRY(const bool some, take(300));
             if (queue_.came_back()) MOTIONRACK_CHECK(offer());
-            if (some) heard = GatherClock::now(), max_wait = min_wait;
-            if (!some && GatherClock::now() - heard > max_wait) {
+            if (some) last_reply = GatherClock::now(), max_wait = min_wait;
+            if (!some && GatherClock::now() - last_reply > max_wait) {
                 if (waits_) waits_(max_wait.count());
                 max_wait *= 2;
                 // If another program removed rows, their points run again. All other points are queued and stay there

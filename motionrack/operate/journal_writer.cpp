@@ -125,7 +125,7 @@ void JournalWriter::see_job(const Status& status) {
 }
 
 void JournalWriter::see_alarms(const Status& status) {
-    const auto tell = [&](const Alarm& alarm, const char* event, const std::string& text) {
+    const auto record = [&](const Alarm& alarm, const char* event, const std::string& text) {
         write(status.at, "alarm", text, json{{"number", alarm.number}, {"event", event}}.dump());
     };
     for (const Alarm& alarm : status.alarms) {
@@ -133,12 +133,12 @@ void JournalWriter::see_alarms(const Status& status) {
             last_alarm_ = alarm.number;
             active_.insert(alarm.number);
             open_.insert(alarm.number);
-            tell(alarm, "raised", alarm.text);
+            record(alarm, "raised", alarm.text);
         }
         if (!alarm.active && active_.erase(alarm.number) == 1)
-            tell(alarm, "returned", fmt::format("Over: {}", alarm.text));
+            record(alarm, "returned", fmt::format("Over: {}", alarm.text));
         if (alarm.acknowledged && open_.erase(alarm.number) == 1)
-            tell(alarm, "acknowledged", fmt::format("Acknowledged: {}", alarm.text));
+            record(alarm, "acknowledged", fmt::format("Acknowledged: {}", alarm.text));
     }
 }
 
@@ -243,15 +243,15 @@ LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfi
         if (!intact && std::none_of(out.axes.begin(), out.axes.end(),
                                     [&](const InitialAxisState& one) { return one.letter == axis.letter; }))
             out.axes.push_back({axis.letter, axis.initial_position, axis.initial_position, false});
-    const auto say = [&](const std::string& sentence) {
+    const auto add_note = [&](const std::string& sentence) {
         out.sentence += fmt::format("{}{}", out.sentence.empty() ? "" : " ", sentence);
     };
     if (!last.clean)
-        say(fmt::format("The previous run was interrupted ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}.",
-                        fmt::gmtime(static_cast<std::time_t>(last.last_ms / 1000)), at_the_end(kept, where)));
-    for (const std::string& doubt : doubts) say(fmt::format("The journal is invalid: {}.", doubt));
-    if (!intact && !config.axes.empty()) say("No position is valid: home the machine, or set its position.");
-    if (!last.damage.empty()) say(last.damage);
+        add_note(fmt::format("The previous run was interrupted ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}.",
+                             fmt::gmtime(static_cast<std::time_t>(last.last_ms / 1000)), at_the_end(kept, where)));
+    for (const std::string& doubt : doubts) add_note(fmt::format("The journal is invalid: {}.", doubt));
+    if (!intact && !config.axes.empty()) add_note("No position is valid: home the machine, or set its position.");
+    if (!last.damage.empty()) add_note(last.damage);
     return out;
 }
 

@@ -20,11 +20,11 @@ namespace motionrack::operate {
 class JournalWriter {
   public:
     /// Also called with every entry. `data`: JSON.
-    using Told =
+    using Callback =
         std::function<void(Instant at, const std::string& kind, const std::string& text, const std::string& data)>;
     explicit JournalWriter(journal::Journal& journal) : JournalWriter(&journal, {}) {}
     /// `journal` may be nullptr, `told` empty.
-    JournalWriter(journal::Journal* journal, Told reported) : journal_(journal), reported_(std::move(reported)) {}
+    JournalWriter(journal::Journal* journal, Callback reported) : journal_(journal), reported_(std::move(reported)) {}
     /// Call with every status; writes its differences from the previous one.
     void see(const Status& status);
     /// Writes a stop command with its user, address and kind. Further stops by the same source within a second count as
@@ -44,7 +44,7 @@ class JournalWriter {
     void write(Instant at, const std::string& kind, const std::string& text, const std::string& data);
 
     journal::Journal* journal_;
-    Told reported_;
+    Callback reported_;
     bool first_ = true;
     MachineState state_ = MachineState::disabled;
     bool program_runs_ = false, single_block_ = false;

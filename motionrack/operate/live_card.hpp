@@ -47,8 +47,8 @@ struct LiveRegisters {
 
 /// Result of a stop.
 struct LiveStop {
-    bool stands = false;   ///< the axes were seen at standstill afterwards
-    std::string sentence;  ///< text of an alarm; empty: no alarm
+    bool is_stationary = false;  ///< the axes were seen at standstill afterwards
+    std::string sentence;        ///< text of an alarm; empty: no alarm
 };
 
 /// Only the motion thread uses it.

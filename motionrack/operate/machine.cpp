@@ -37,8 +37,8 @@ Result<void> has_axes(const rack::RackConfig& config, const char* what) {
         fmt::format("{}: the rack has no axes. Nothing was moved; add an [axis.X] section to the rack file.", what));
 }
 
-rack::RackConfig placed(rack::RackConfig config, const std::vector<InitialAxisState>& standing) {
-    for (const InitialAxisState& one : standing)
+rack::RackConfig placed(rack::RackConfig config, const std::vector<InitialAxisState>& initial_axes) {
+    for (const InitialAxisState& one : initial_axes)
         for (rack::RackAxis& axis : config.axes)
             if (axis.letter == one.letter) axis.initial_position = one.true_position;
     return config;
@@ -48,7 +48,7 @@ rack::RackConfig placed(rack::RackConfig config, const std::vector<InitialAxisSt
 
 Machine::Machine(const rack::RackConfig& config, MachineSettings settings)
     : settings_(std::move(settings)),
-      rack_(placed(config, settings_.standing)),
+      rack_(placed(config, settings_.initial_axes)),
       context_(rack_),
       tap_(rack_.kernel()),
       probe_(rack_.kernel()),

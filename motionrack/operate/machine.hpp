@@ -49,9 +49,9 @@ struct MachineSettings {
     Duration jog_lease = milliseconds(250);             ///< wall-clock time after which a jog without renewal ends
     std::function<void(const Status&)> on_status = {};  ///< every slice, on the motion thread
     std::function<void(const control::gcode::CanonCall&)> on_event = {};  ///< for each event of a program
-    std::vector<InitialAxisState> standing = {};  ///< axes with another position than the rack file's
-    std::string alarm = {};                       ///< initial alarm; empty: none
-    std::vector<LivePlace> live = {};             ///< cards replaced by real ones, in service only
+    std::vector<InitialAxisState> initial_axes = {};  ///< axes with another position than the rack file's
+    std::string alarm = {};                           ///< initial alarm; empty: none
+    std::vector<LivePlace> live = {};                 ///< cards replaced by real ones, in service only
     Duration slice = milliseconds(2);
     Duration quiet = milliseconds(20);  ///< pause after which a sender's input counts as complete
     std::size_t max_alarms = 100;       ///< ended and acknowledged alarms are removed first, then the oldest

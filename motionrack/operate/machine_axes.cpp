@@ -33,7 +33,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     const bool known = !can_home(rack_.config());
     for (rack::RunningAxis& axis : rack_.axes()) {
         MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
-        const InitialAxisState here = standing_of(axis.config, settings_.standing, known);
+        const InitialAxisState here = standing_of(axis.config, settings_.initial_axes, known);
         if (here.position_valid)
             MOTIONRACK_CHECK(validity_.take(*one, validity_.declared(here.letter, here.commanded)));
     }

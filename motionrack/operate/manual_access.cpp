@@ -31,8 +31,8 @@ Result<void> ManualAccess::check_write(const std::string& card) const {
 }
 
 Result<void> ManualAccess::request(const BusAccess& access, Answered ready) {
-    const bool stands = idle(machine_.state_) && !machine_.stream_->has_work();
-    if (!stands && !measures_only(machine_.rack_.config(), access.card))
+    const bool is_stationary = idle(machine_.state_) && !machine_.stream_->has_work();
+    if (!is_stationary && !measures_only(machine_.rack_.config(), access.card))
         return fail(
             ErrorKind::refused,
             fmt::format("The card was not accessed: the machine is in state '{}'. Stop it, or wait for standstill.",

@@ -56,7 +56,7 @@ Result<void> Service::check_begin(const std::string& card) const {
     return {};
 }
 
-Result<void> Service::begin(const std::string& card, const StopOrigin& by, const std::string& session, Told ready) {
+Result<void> Service::begin(const std::string& card, const StopOrigin& by, const std::string& session, Callback ready) {
     MOTIONRACK_CHECK(check_begin(card));
     card_ = card;
     by_ = by;
@@ -72,7 +72,7 @@ Result<void> Service::begin(const std::string& card, const StopOrigin& by, const
     return {};
 }
 
-Result<void> Service::end(Told ready) {
+Result<void> Service::end(Callback ready) {
     if (!on()) return fail(ErrorKind::refused, "No card is in service. Nothing was changed.");
     ended_ = std::move(ready);
     break_off();
@@ -137,7 +137,7 @@ void Service::take() {
         if (lost.empty())
             note_ = fmt::format(" The service of card {} was not started. {}", card_, begun.error().message);
     }
-    if (const Told reported = std::exchange(begun_, {}))
+    if (const Callback reported = std::exchange(begun_, {}))
         reported(begun ? Result<std::string>(fmt::format(
                              "Card {} is in service: it was reset, and only its functions drive it.{}", card_,
                              lost.empty() ? "" : fmt::format(" The position of {} is not valid any more.", lost)))
@@ -197,12 +197,12 @@ void Service::stop_axes() {
     if (!live_) return stop_at_once(*library_, host_of(machine_.rack_));
     const LiveStop stop = live_->stop(*library_);
     const std::string source = "card " + card_;
-    if (stop.stands)
+    if (stop.is_stationary)
         for (Alarm& alarm : machine_.status_.alarms)
             if (alarm.stays && alarm.source == source) alarm.stays = alarm.active = false;
     if (stop.sentence.empty()) return;
     machine_.raise(source, stop.sentence);
-    machine_.status_.alarms.back().stays = !stop.stands;
+    machine_.status_.alarms.back().stays = !stop.is_stationary;
 }
 
 /// Ends all motion of the card and initialises it for the controller.
@@ -223,7 +223,7 @@ void Service::finish() {
     session_.clear();
     stop_ = false;
     if (pending_) std::exchange(pending_, std::nullopt)->ready(fail(ErrorKind::stopped, "Not called. " + sentence));
-    if (const Told reported = std::exchange(begun_, {})) reported(fail(ErrorKind::stopped, sentence));
+    if (const Callback reported = std::exchange(begun_, {})) reported(fail(ErrorKind::stopped, sentence));
     if (!taken) return machine_.failed(taken.error());
     const bool any = std::find(machine_.enabled_.begin(), machine_.enabled_.end(), true) != machine_.enabled_.end();
     if (machine_.state_ == MachineState::service && !machine_.rack_.stop_latch().latched())
@@ -231,7 +231,7 @@ void Service::finish() {
     else if (machine_.state_ == MachineState::stopping)
         machine_.status_.reason += note_;
     if (!machine_.rack_.stop_latch().latched()) note_.clear();
-    if (const Told reported = std::exchange(ended_, {})) reported(sentence);
+    if (const Callback reported = std::exchange(ended_, {})) reported(sentence);
 }
 
 }  // namespace motionrack::operate

@@ -38,7 +38,7 @@ class Service {
         std::map<std::string, std::int64_t, std::less<>> arguments;
     };
     /// Called with a sentence once the service has started or ended.
-    using Told = std::function<void(Result<std::string>)>;
+    using Callback = std::function<void(Result<std::string>)>;
     using Answered = std::function<void(Result<CallAnswer>)>;
 
     explicit Service(Machine& machine) : machine_(machine) {}
@@ -49,9 +49,9 @@ class Service {
 
     /// Starts a service. The machine must be at standstill, and enabled if the card moves one of its axes. Also refused
     /// while a stop is in force, or if the card has no library.
-    Result<void> begin(const std::string& card, const StopOrigin& by, const std::string& session, Told ready);
+    Result<void> begin(const std::string& card, const StopOrigin& by, const std::string& session, Callback ready);
     /// Stops the axes and returns the card to the controller. Refused without a service.
-    Result<void> end(Told ready);
+    Result<void> end(Callback ready);
     /// Requests one function call: checked now, executed by the loop; `ready` receives the result. Refused: no service
     /// of a card that moves axes of the machine, another card's service, a running call. Errors: invalid_input,
     /// refused.
@@ -97,7 +97,7 @@ class Service {
     std::string card_, session_, working_, note_;
     StopOrigin by_;
     std::atomic<bool> stop_{false};
-    Told begun_, ended_;
+    Callback begun_, ended_;
     std::unique_ptr<LiveCard> live_;
     std::unique_ptr<FunctionLibrary> library_;  ///< destroyed first of the two: it writes to the card
     std::optional<Pending> pending_;

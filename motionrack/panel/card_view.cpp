@@ -57,8 +57,8 @@ json machines_of(const CardMap& map) {
         json states = json::array(), ways = json::array();
         for (const StateInfo& state : machine.states)
             states.push_back({{"name", state.name}, {"meaning", state.meaning}});
-        for (const TransitionInfo& way : machine.transitions)
-            ways.push_back({{"from", way.from}, {"to", way.to}, {"when", way.when}});
+        for (const TransitionInfo& transition : machine.transitions)
+            ways.push_back({{"from", transition.from}, {"to", transition.to}, {"when", transition.when}});
         out.push_back({{"name", machine.name},
                        {"meaning", machine.meaning},
                        {"states", std::move(states)},

@@ -132,7 +132,7 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(PanelCon
     if (now.program_runs && context.plan)
         noted->remaining_s = context.plan->after(now.line) / std::max(0.01, now.feed_override);
     return [facts = facts_, noted](const operate::Status& status) {
-        const bool stands = operate::is_stationary(status.state);
+        const bool is_stationary = operate::is_stationary(status.state);
         json axes = json::array();
         for (std::size_t i = 0; i < status.axes.size(); ++i) {
             const operate::AxisStatus& axis = status.axes[i];
@@ -142,7 +142,7 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(PanelCon
                 leds["soft_minus"] = axis.commanded <= fact.min;
                 leds["soft_plus"] = axis.commanded >= fact.max;
             }
-            leds["in_position"] = stands && std::fabs(axis.commanded - axis.actual) <= fact.near;
+            leds["in_position"] = is_stationary && std::fabs(axis.commanded - axis.actual) <= fact.near;
             for (const auto& [name, on] : noted->leds[i]) leds[std::string(name)] = on;
             axes.push_back({{"letter", std::string(1, axis.letter)},
                             {"unit", fact.unit},

@@ -102,14 +102,14 @@ class Mcx314Card final : public MotionCard {
 
     Result<control::AxisGroup*> path_axes(const RackConfig& config,
                                           const std::optional<control::Point>& position) override {
-        const Stand stand = position ? Stand() : stand_now();
+        const CounterState counters = position ? CounterState() : read_counters();
         for (auto& one : single_) one.reset();
         axes_.emplace(driver_, axis_map(config), mcx314::HostTimes{access_, latency_});
         axes_->set_probe(probe_channels(config));
-        MOTIONRACK_CHECK(axes_->set_up(position.value_or(position_of(config, stand))));
+        MOTIONRACK_CHECK(axes_->set_up(position.value_or(position_of(config, counters))));
         for (int c = 0; c < mcx314::channel_count && !position; ++c)
-            MOTIONRACK_CHECK(driver_.EPS(1u << c, stand.counts[static_cast<std::size_t>(c)]));
-        group_valid_ = stand.position_valid;
+            MOTIONRACK_CHECK(driver_.EPS(1u << c, counters.counts[static_cast<std::size_t>(c)]));
+        group_valid_ = counters.position_valid;
         if (position) group_valid_.fill(true);
         return &*axes_;
     }
@@ -118,7 +118,7 @@ class Mcx314Card final : public MotionCard {
         const RackAxis* found = config.axis(letter);
         MOTIONRACK_ASSERT(found != nullptr && found->card == name_);
         if (axes_ || !singles_ready_) {
-            before_singles_ = stand_now();
+            before_singles_ = read_counters();
             axes_.reset();
             MOTIONRACK_CHECK(mcx314::SingleAxis::prepare(driver_));
             MOTIONRACK_CHECK(restore_counters(before_singles_));
@@ -193,13 +193,13 @@ class Mcx314Card final : public MotionCard {
     }
 
     /// Counters of the channels, and whether they are valid positions.
-    struct Stand {
+    struct CounterState {
         std::array<std::int64_t, mcx314::channel_count> pulses = {}, counts = {};
         std::array<bool, mcx314::channel_count> position_valid = {};
     };
-    Stand stand_now() {
+    CounterState read_counters() {
         // Channels not used singly since the group lost the card are still where it left them.
-        Stand out = before_singles_;
+        CounterState out = before_singles_;
         const auto read = [&](std::size_t c, bool valid) {
             out.pulses[c] = driver_.ReadLPS(static_cast<int>(c));
             out.counts[c] = driver_.ReadEPS(static_cast<int>(c));
@@ -211,19 +211,19 @@ class Mcx314Card final : public MotionCard {
         return out;
     }
     /// Restores the counters after the chip's reset, which has cleared those of all channels.
-    Result<void> restore_counters(const Stand& stand) {
-        for (std::size_t c = 0; c < stand.pulses.size(); ++c) {
-            if (stand.pulses[c] != 0) MOTIONRACK_CHECK(driver_.LPS(1u << c, stand.pulses[c]));
-            if (stand.counts[c] != 0) MOTIONRACK_CHECK(driver_.EPS(1u << c, stand.counts[c]));
+    Result<void> restore_counters(const CounterState& counters) {
+        for (std::size_t c = 0; c < counters.pulses.size(); ++c) {
+            if (counters.pulses[c] != 0) MOTIONRACK_CHECK(driver_.LPS(1u << c, counters.pulses[c]));
+            if (counters.counts[c] != 0) MOTIONRACK_CHECK(driver_.EPS(1u << c, counters.counts[c]));
         }
         return {};
     }
-    control::Point position_of(const RackConfig& config, const Stand& stand) const {
+    control::Point position_of(const RackConfig& config, const CounterState& counters) const {
         const mcx314::AxisMap map = axis_map(config);
         control::Point out = {};
         for (std::size_t i = 0; i < out.size(); ++i)
             if (map.channel[i] >= 0)
-                out[i] = static_cast<double>(stand.pulses[static_cast<std::size_t>(map.channel[i])]) /
+                out[i] = static_cast<double>(counters.pulses[static_cast<std::size_t>(map.channel[i])]) /
                          map.limits[i].pulses_per_unit;
         return out;
     }
@@ -246,7 +246,7 @@ class Mcx314Card final : public MotionCard {
     std::optional<mcx314::ChipAxisGroup> axes_;
     std::array<std::unique_ptr<mcx314::SingleAxis>, 6> single_ = {};
     bool singles_ready_ = false;
-    Stand before_singles_;  // state when the group lost the card
+    CounterState before_singles_;  // state when the group lost the card
     std::array<bool, mcx314::channel_count> group_valid_ = {};
 };
 

@@ -232,16 +232,16 @@ class WireResolver {
         std::set<std::string> reported;
         for (const auto& [name, node] : inputs_) {
             if (reported.count(name) != 0) continue;
-            std::vector<std::string> way = {name};
+            std::vector<std::string> chain = {name};
             const TomlNode* at = node;
-            while (at->text != name && way.size() < 16 && inputs_.count(at->text) != 0) {
-                way.push_back(at->text);
+            while (at->text != name && chain.size() < 16 && inputs_.count(at->text) != 0) {
+                chain.push_back(at->text);
                 at = inputs_.at(at->text);
             }
             if (at->text == name) {
-                reported.insert(way.begin(), way.end());
+                reported.insert(chain.begin(), chain.end());
                 error(node->key_location, fmt::format("These wires form a loop: {} = {}; no output drives them.",
-                                                      fmt::join(way, " = "), name));
+                                                      fmt::join(chain, " = "), name));
             } else {
                 error(node->key_location, fmt::format("{} and {} are both inputs; name the output that drives {}.",
                                                       name, node->text, name));

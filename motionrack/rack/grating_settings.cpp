@@ -22,8 +22,8 @@ Duration ns(double value) {
     return from_seconds(value * 1e-9);
 }
 
-gb::Shifter shifter(GratingShifter way) {
-    return static_cast<gb::Shifter>(way);
+gb::Shifter shifter(GratingShifter direction) {
+    return static_cast<gb::Shifter>(direction);
 }
 
 gb::CardSettings settings_among(const RackCard& card, std::span<const RackCard> before) {

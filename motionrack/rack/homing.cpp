@@ -216,7 +216,7 @@ class Homing {
             }
             if (settings_.progress && port.now() >= next_progress) {
                 next_progress = port.now() + milliseconds(50);
-                tell(group);
+                report_progress(group);
             }
             port.pass(sample_period);
         }
@@ -249,7 +249,7 @@ class Homing {
         s.velocity.push_back(static_cast<float>(work.running->velocity(now)));
     }
 
-    void tell(const std::vector<Work*>& group) {
+    void report_progress(const std::vector<Work*>& group) {
         HomingProgress p;
         p.seconds = to_seconds(rack_.kernel().now() - began_);
         p.axes = static_cast<int>(works_.size());

@@ -44,7 +44,7 @@ std::vector<control::MoveStart> PathObserver::take_move_starts() {
     return std::exchange(starts_, {});
 }
 
-std::vector<control::MoveStart> PathObserver::heard() {
+std::vector<control::MoveStart> PathObserver::observed() {
     pull();
     return std::exchange(heard_, {});
 }

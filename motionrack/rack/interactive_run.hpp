@@ -33,7 +33,7 @@ class PathObserver final : public control::AxisGroup {
     std::vector<control::MoveStart> take_move_starts() override;
 
     /// Returns the starts since the last call, for a listener, with the job's move numbers.
-    std::vector<control::MoveStart> heard();
+    std::vector<control::MoveStart> observed();
 
   private:
     void pull();

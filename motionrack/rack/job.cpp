@@ -136,7 +136,7 @@ Result<void> Job::drive_by_stream(control::AxisGroup& axes, const control::Execu
     Interrupt& host = rack_.axes().front().card->host();
     control::StreamExecutor stream(watch, host, stream_settings);
     rack_.set_stop_flag(stream.stop_flag());
-    rack_.on_slice(slice, [&] { listen(watch.heard()); });
+    rack_.on_slice(slice, [&] { listen(watch.observed()); });
     settings_.commands->attach(&stream);
     monitor_->begin();
     const OnProgrammedMove on_move = [&](const control::Move& move, const control::Point& start) {
@@ -145,7 +145,7 @@ Result<void> Job::drive_by_stream(control::AxisGroup& axes, const control::Execu
     const Result<void> ended = drive_live(stream, host, *settings_.commands, settings_.program, settings.gcode,
                                           settings_.program_name, out.run, on_move);
     out.time = rack_.kernel().now() - began_;
-    listen(watch.heard());
+    listen(watch.observed());
     settings_.commands->attach(nullptr);
     rack_.set_stop_flag(nullptr);
     return ended;
@@ -216,7 +216,7 @@ JobOutcome Job::run() {
     const std::vector<DrivenOtherwise> others = take_path_warnings(**axes, out);
     collect_conditions(out);
     collect_breaches(out);
-    tell(others, out);
+    report_other_motion(others, out);
     judge_positions(validity, out);
     out.axes = axis_outcomes((*axes)->commanded_position());
     for (const AxisOutcome& axis : out.axes) {
@@ -255,12 +255,12 @@ HomingOutcome Job::home(const HomingSettings& settings) {
     };
     std::vector<ValidityWatch::Mark> found(rack_.axes().size());
     const ValidityWatch watch(rack_);
-    HomingSettings heard = settings;
-    heard.on_homed = [&](char letter, Instant since) {
+    HomingSettings observed = settings;
+    observed.on_homed = [&](char letter, Instant since) {
         found[number(letter)] = {since, watch.mark(number(letter)).lost_pulses};
         if (settings.on_homed) settings.on_homed(letter, since);
     };
-    HomingOutcome out = home_axes(rack_, heard);
+    HomingOutcome out = home_axes(rack_, observed);
     for (const HomedAxis& axis : out.axes) {
         const std::size_t i = number(axis.letter);
         if (axis.begun && axis.outcome.homed)
@@ -312,7 +312,7 @@ std::vector<Job::DrivenOtherwise> Job::take_path_warnings(control::AxisGroup& ax
 }
 
 /// Appended after losses and breaches: these moves were executed correctly.
-void Job::tell(const std::vector<DrivenOtherwise>& others, JobOutcome& out) const {
+void Job::report_other_motion(const std::vector<DrivenOtherwise>& others, JobOutcome& out) const {
     for (const DrivenOtherwise& one : others) {
         const std::string lines = one.lines == 1
                                       ? fmt::format("line {}", one.first.line)

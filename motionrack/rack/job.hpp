@@ -140,7 +140,7 @@ class Job {
     void listen(const std::vector<control::MoveStart>& starts);
     std::vector<AxisOutcome> axis_outcomes(const control::Point& sent_to);
     std::vector<DrivenOtherwise> take_path_warnings(control::AxisGroup& axes, JobOutcome& out);
-    void tell(const std::vector<DrivenOtherwise>& others, JobOutcome& out) const;
+    void report_other_motion(const std::vector<DrivenOtherwise>& others, JobOutcome& out) const;
     void collect_breaches(JobOutcome& out);
     void collect_conditions(JobOutcome& out);
     void report_stop(JobOutcome& out);

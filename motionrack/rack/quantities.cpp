@@ -65,8 +65,8 @@ std::string said_of(const Part& part) {
 
 // ---- iteration over parts
 
-template <class Told>
-void each_part(Rack& rack, const Told& reported) {
+template <class Visitor>
+void each_part(Rack& rack, const Visitor& reported) {
     for (RunningAxis& axis : rack.axes()) reported(axis);
     for (RunningStage& stage : rack.stages()) reported(stage);
     for (RunningConveyor& track : rack.tracks()) reported(track);
@@ -74,8 +74,8 @@ void each_part(Rack& rack, const Told& reported) {
 }
 
 /// Lists the quantities of this part, with names in its own unit.
-template <class Part, class Told>
-void each_quantity(const Part& part, const Told& reported) {
+template <class Part, class Visitor>
+void each_quantity(const Part& part, const Visitor& reported) {
     for (const QuantityRow<Part>& row : rows_of(part))
         if (row.present == nullptr || row.present(part)) reported(with_unit(row.name, unit_of(part)), row);
 }

@@ -324,13 +324,13 @@ Result<control::AxisGroup*> Rack::positioning_axes(const std::optional<control::
 }
 
 void Rack::on_slice(Duration slice, const std::function<void()>& call) {
-    std::function<void()> heard;
+    std::function<void()> callback;
     if (call)
-        heard = [this, call] {
+        callback = [this, call] {
             call();
             stop_latch_->poll();
         };
-    for (const auto& card : cards_) card->host().on_slice(slice, heard);
+    for (const auto& card : cards_) card->host().on_slice(slice, callback);
 }
 
 void Rack::set_stop_flag(const std::atomic<bool>* stop) {

@@ -33,8 +33,8 @@ std::string profile_flaw(const RackStage& stage) {
                            number_text(s.to_mm));
     if (s.profile != StageProfile::steps) return {};
     if (s.step_mm == 0) return "step_mm is 0; it must be other than 0.";
-    const double way = std::fabs(s.step_mm) * nm_per_mm;
-    const double move = gb::StepProfile(0, way, 1, 1e9, limits_of(s)).move_s();
+    const double distance = std::fabs(s.step_mm) * nm_per_mm;
+    const double move = gb::StepProfile(0, distance, 1, 1e9, limits_of(s)).move_s();
     if (move > s.step_period_ms * 1e-3)
         return fmt::format("A step of {} mm takes {:.3f} ms with these limits, but step_period_ms is {}.",
                            number_text(s.step_mm), move * 1e3, number_text(s.step_period_ms));

@@ -89,7 +89,7 @@ bool StopLatch::is_active(const Input& input) const {
 void StopLatch::arm() {
     state_.armed = 1;
     const Instant now = kernel_.now();
-    state_.heard = kernel_.dropped_conditions() + kernel_.conditions().size();
+    state_.evaluated = kernel_.dropped_conditions() + kernel_.conditions().size();
     following_.begin();
     ramps_.arm(now);
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
@@ -103,7 +103,7 @@ void StopLatch::disarm() {
     const State before = state_;
     state_ = {};
     state_.left = before.left;
-    state_.heard = before.heard;
+    state_.evaluated = before.evaluated;
     state_.trips = before.trips;
     state_.heeds_door = before.heeds_door;
     halted_ = false;
@@ -252,12 +252,12 @@ bool StopLatch::is_on_card(const RunningAxis& axis, const Input& input) const {
 void StopLatch::look_at_watchdogs() {
     const std::vector<sim::Condition> conditions = kernel_.conditions();
     const std::uint64_t dropped = kernel_.dropped_conditions();
-    for (std::size_t k = state_.heard > dropped ? state_.heard - dropped : 0; k < conditions.size(); ++k)
+    for (std::size_t k = state_.evaluated > dropped ? state_.evaluated - dropped : 0; k < conditions.size(); ++k)
         for (std::size_t i = 0; i < inputs_.size(); ++i)
             if (inputs_[i].source == StopSource::watchdog && conditions[k].code == inputs_[i].active &&
                 rack_.cards()[static_cast<std::size_t>(inputs_[i].card)]->device() == conditions[k].device)
                 trip(StopSource::watchdog, static_cast<int>(i), conditions[k].at);
-    state_.heard = dropped + conditions.size();
+    state_.evaluated = dropped + conditions.size();
 }
 
 void StopLatch::poll() {
@@ -271,16 +271,16 @@ void StopLatch::poll() {
         if ((std::exchange(state_.pending, state_.pending & ~bit(source)) & bit(source)) != 0) react(rack_, source);
     if (halted_) return;
     const Instant now = kernel_.now();
-    bool any = false, heard = true;
+    bool any = false, is_received = true;
     for (const RunningAxis& axis : rack_.axes()) {
         if (!axis.moves(now)) continue;
         any = true;
         for (const Input& input : inputs_)
             if (input.source == StopSource::emergency_stop && cause() == input.source && is_on_card(axis, input))
-                heard = heard && is_active(input);
+                is_received = is_received && is_active(input);
     }
     const Duration since = now - state_.at;
-    if (!heard || since > card_has || (!any && since > seen_within)) halted_ = true;
+    if (!is_received || since > card_has || (!any && since > seen_within)) halted_ = true;
 }
 
 void StopLatch::settle(bool failed) {

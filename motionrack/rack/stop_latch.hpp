@@ -111,7 +111,7 @@ class StopLatch final : public sim::Device {
     };
     struct State {
         Instant at{};
-        std::uint64_t heard = 0;  ///< kernel conditions already evaluated
+        std::uint64_t evaluated = 0;  ///< kernel conditions already evaluated
         std::uint64_t trips = 0;
         std::array<Instant, 2 * control::axis_count> left{};  ///< when each - and + limit switch was last left
         std::int32_t armed = 0, latched = 0, cause = 0;

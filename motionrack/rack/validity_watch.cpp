@@ -27,12 +27,12 @@ void ValidityWatch::begin(std::size_t axis, const Mark& from) {
     for (const sim::Condition& condition : rack_.kernel().conditions()) look_for_lost(axis, condition, early_);
 }
 
-std::vector<ValidityFinding> ValidityWatch::poll(bool standing) {
+std::vector<ValidityFinding> ValidityWatch::poll(bool is_stationary) {
     std::vector<ValidityFinding> out = std::exchange(early_, {});
     look_at_conditions(out);
     for (FollowingWatch::Warning& warning : rack_.stop_latch().following().take_warnings())
         out.push_back({warning.axis, warning.at, std::move(warning.text), false, true});
-    for (std::size_t i = 0; standing && i < watched_.size(); ++i) compare(i, out);
+    for (std::size_t i = 0; is_stationary && i < watched_.size(); ++i) compare(i, out);
     return out;
 }
 

@@ -44,7 +44,7 @@ class ValidityWatch {
     void begin(std::size_t axis, const Mark& from);
     /// Returns the findings since the last look, each once until begin(). `standing`: nothing moves, so that counters
     /// and rotors can be compared and axes queried.
-    std::vector<ValidityFinding> poll(bool standing);
+    std::vector<ValidityFinding> poll(bool is_stationary);
     /// Returns false if an axis that positions by itself has lost its position; sets the position of other axes. Call
     /// at standstill.
     bool knows_itself(std::size_t axis);

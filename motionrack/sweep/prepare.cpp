@@ -111,7 +111,7 @@ class Preparation {
         const bool new_rack = racks_.insert(key_of(text)).second, new_faults = faults_.count(faults) == 0;
         if (!new_rack && !new_faults) return;
         const rack::RackReading reading = rack::read_rack_text(text, files_.rack_name);
-        for (const Error& error : reading.errors) tell(error, lines, values);
+        for (const Error& error : reading.errors) report(error, lines, values);
         if (!reading.config || !new_faults) return;
         faults_.insert(faults);
         check_faults(*reading.config, values);
@@ -123,12 +123,12 @@ class Preparation {
             rack::Rack rack(config);
             for (const std::string& fault : words_of(values[p].text))
                 if (const auto plan = rack::FaultSchedule::create(rack, {fault}); !plan)
-                    tell(values[p].value_location, plan.error().message);
+                    report(values[p].value_location, plan.error().message);
         }
     }
 
     /// Reports an error of a point's rack at the responsible position of the sweep file.
-    void tell(const Error& error, const std::vector<rack::TomlLine>& lines, const std::vector<TomlNode>& values) {
+    void report(const Error& error, const std::vector<rack::TomlLine>& lines, const std::vector<TomlNode>& values) {
         const auto at = static_cast<std::size_t>(error.location.line - 1);
         const std::string name = at < lines.size() ? lines[at].name : std::string();
         std::string with;
@@ -137,18 +137,18 @@ class Preparation {
             const VariedParameter& parameter = parameters()[p];
             if (parameter.kind != ParameterKind::rack) continue;
             if (parameter.name == name)
-                return tell(static_cast<std::size_t>(error.location.column) <= name.size() ? parameter.location
-                                                                                           : values[p].value_location,
-                            error.message);
+                return report(static_cast<std::size_t>(error.location.column) <= name.size() ? parameter.location
+                                                                                             : values[p].value_location,
+                              error.message);
             with += fmt::format("{}{} = {}", with.empty() ? "" : ", ", parameter.name, value_text(values[p]));
             location = parameter.location;
         }
         const std::string line =
             at < lines.size() ? fmt::format(" at {} = {}", lines[at].name, lines[at].value) : std::string();
-        tell(location, fmt::format("With {} the rack is wrong{}: {}", with, line, error.message));
+        report(location, fmt::format("With {} the rack is wrong{}: {}", with, line, error.message));
     }
 
-    void tell(TextPosition location, const std::string& message) {
+    void report(TextPosition location, const std::string& message) {
         if (reported_.insert({location.line, location.column, message}).second) problems_.error(location, message);
     }
 

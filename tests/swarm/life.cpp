@@ -95,7 +95,7 @@ class Lives {
         journal_ = std::move(*opened);
         look_for_taken();
         operate::MachineSettings settings;
-        settings.standing = standing();
+        settings.initial_axes = standing();
         settings.pace = [this](Instant now) { return pace(now), !stands(); };
         settings.on_status = [this](const Status& status) { see(status); };
         auto made = Machine::make(config_, std::move(settings));

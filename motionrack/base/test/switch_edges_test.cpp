@@ -9,7 +9,7 @@ namespace motionrack {
 namespace {
 
 std::string words(const std::optional<EdgeConflict>& conflict) {
-    return conflict ? conflict->text([](double way) { return fmt::format("{:.2f}", way); }) : std::string();
+    return conflict ? conflict->text([](double distance) { return fmt::format("{:.2f}", distance); }) : std::string();
 }
 
 SwitchEdges edges(std::optional<double> hysteresis = 5) {

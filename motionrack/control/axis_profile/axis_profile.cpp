@@ -58,13 +58,13 @@ class AxisProfileBuilder {
         accel_ = from.accel * scale.accel;
     }
 
-    double way() const { return way_; }
+    double distance() const { return distance_; }
 
     /// Returns the conditions from the current state to a velocity in user units, the other values scaled.
-    BoundaryConditions course_to(double velocity, double accel, double way) const {
+    BoundaryConditions course_to(double velocity, double accel, double distance) const {
         const double end = velocity * scale_.velocity;
         const double change = time_ == 0 ? (velocity - at_.velocity) * scale_.velocity : end - velocity_;
-        return {velocity_, accel_, end, accel, way, change};
+        return {velocity_, accel_, end, accel, distance, change};
     }
 
     void bring_accel_within() {
@@ -91,7 +91,7 @@ class AxisProfileBuilder {
     void add(const TimeOptimalSolution& course, double top) {
         const DoubleSPhases& p = course.phases;
         const double side = course.mirrored ? -1 : 1;
-        const double way = course.backwards ? -side : side;
+        const double sign = course.backwards ? -side : side;
         if (course.backwards) {
             forward(-side, p.back);
             hold(-side, p.low);
@@ -102,7 +102,7 @@ class AxisProfileBuilder {
             forward(-side, p.fall);
         }
         if (p.cruise > 0) {
-            at_.velocity = way * (top > scale_.top ? top / scale_.velocity : limits_.velocity);
+            at_.velocity = sign * (top > scale_.top ? top / scale_.velocity : limits_.velocity);
             at_.accel = 0;
             forward(0, p.cruise);
         }
@@ -182,7 +182,7 @@ class AxisProfileBuilder {
 
     /// Adds a phase before the solution; tracks it in scaled units as well, for the remaining distance.
     void ramp(double sign, double t) {
-        way_ += t * (velocity_ + t * (0.5 * accel_ + t * sign * (1.0 / 6)));
+        distance_ += t * (velocity_ + t * (0.5 * accel_ + t * sign * (1.0 / 6)));
         velocity_ += t * (accel_ + 0.5 * t * sign);
         accel_ += t * sign;
         forward(sign, t);
@@ -190,7 +190,7 @@ class AxisProfileBuilder {
 
     void keep(double t) {
         if (!(t > 0)) return;
-        way_ += t * (velocity_ + 0.5 * t * accel_);
+        distance_ += t * (velocity_ + 0.5 * t * accel_);
         velocity_ += t * accel_;
         hold(accel_ > 0 ? 1 : -1, t);
     }
@@ -226,8 +226,8 @@ class AxisProfileBuilder {
     const KinematicLimits& limits_;
     const Scale& scale_;
     double time_ = 0;
-    bool goes_on_ = true;                ///< at_ is exactly the end of the last phase
-    double velocity_, accel_, way_ = 0;  ///< scaled
+    bool goes_on_ = true;                     ///< at_ is exactly the end of the last phase
+    double velocity_, accel_, distance_ = 0;  ///< scaled
     std::array<Part, 3> tail_ = {};
 };
 
@@ -248,9 +248,9 @@ std::optional<AxisProfile> time_optimal_profile(const KinematicState& from, cons
     builder.bring_accel_within();
     double top = builder.bring_velocity_within();
     top = std::max(top, std::fabs(end_velocity) + 0.5 * end_accel * end_accel);
-    const double way = (to.position - from.position) * scale.position - builder.way();
+    const double distance = (to.position - from.position) * scale.position - builder.distance();
     const double slack = 4.5e-16 * (std::fabs(from.position) + std::fabs(to.position)) * scale.position;
-    builder.add(solve_time_optimal(builder.course_to(to.velocity, end_accel, way), top, slack), top);
+    builder.add(solve_time_optimal(builder.course_to(to.velocity, end_accel, distance), top, slack), top);
     builder.end_at(to);
     return out;
 }

@@ -26,8 +26,8 @@ double cube_third(double x) {
 
 /// Returns the rounding error of a distance, at most 1e-12 of it. Errors of velocities and accelerations change the
 /// time at the maximum acceleration `accel`, and so the distance by `sensitive` over `accel`.
-double noise_of(double way, double sensitive, double accel) {
-    return 8 * relative_rounding * (way + std::min(512 * way, sensitive / accel));
+double noise_of(double distance, double sensitive, double accel) {
+    return 8 * relative_rounding * (distance + std::min(512 * distance, sensitive / accel));
 }
 
 /// Finds the root of a function that is below 0 at `min` and above at `max`, with a single crossing. Uses Halley

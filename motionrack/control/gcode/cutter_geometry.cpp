@@ -92,8 +92,8 @@ bool is_convex(const CutterPath& before, const CutterPath& after, double offset)
     const double sine = cross(before.direction_out, after.direction_in);
     const double towards = offset > 0 ? sine : -sine;
     const bool back = dot(before.direction_out, after.direction_in) < 0;
-    const double bend = before.curvature + after.curvature;
-    const bool closes = offset > 0 ? bend < -parallel : bend > parallel;
+    const double curvature = before.curvature + after.curvature;
+    const bool closes = offset > 0 ? curvature < -parallel : curvature > parallel;
     if (back && towards < parallel && towards > -cusp && closes) return false;
     return towards < 0 || (back && towards < parallel);
 }

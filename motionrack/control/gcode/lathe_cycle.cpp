@@ -160,9 +160,9 @@ void Rougher::enter() {
 bool Rougher::cut_level(PlanePoint from, const On& behind, bool outside) {
     On exit{};
     if (!exit_of(from.second, behind.piece, exit)) return false;
-    const double way = exit.at.first - from.first;
-    if (way <= same_mm) return true;
-    const double back = std::min(plan_.retract, way / 2);
+    const double distance = exit.at.first - from.first;
+    if (distance <= same_mm) return true;
+    const double back = std::min(plan_.retract, distance / 2);
     path_.feed(exit.at);
     path_.rapid({exit.at.first - back, from.second + back});
     path_.rapid({from.first + back, from.second + back});

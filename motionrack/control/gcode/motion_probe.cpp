@@ -48,11 +48,11 @@ void Interpreter::store_probe_result(bool hit, const Point& at) {
     parameters_.set(success, hit ? 1 : 0);
 }
 
-void Interpreter::set_probe_result(bool hit, const Point& at, const Point& stands) {
+void Interpreter::set_probe_result(bool hit, const Point& at, const Point& stopped_at) {
     frame_.probe = at;
     frame_.probe_hit = hit;
     store_probe_result(hit, at);
-    resync_position(stands);
+    resync_position(stopped_at);
 }
 
 }  // namespace motionrack::control::gcode

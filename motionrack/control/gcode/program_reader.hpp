@@ -38,8 +38,8 @@ class ProgramReader {
     const Interpreter& interpreter() const { return interpreter_; }
     const ProgramFlow& program_flow() const { return program_flow_; }
     /// See Interpreter::set_probe_result(); call after the probing call, before the next one.
-    void set_probe_result(bool hit, const Point& at, const Point& stands) {
-        interpreter_.set_probe_result(hit, at, stands);
+    void set_probe_result(bool hit, const Point& at, const Point& stopped_at) {
+        interpreter_.set_probe_result(hit, at, stopped_at);
     }
     std::int32_t line() const { return program_flow_.number(); }  ///< line of the last call or error
 

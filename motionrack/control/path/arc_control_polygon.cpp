@@ -67,17 +67,17 @@ ArcControlPolygon::ArcControlPolygon(const ArcCurve& arc, double step_in, double
     last_ = length - step_after_junction * step_out_;
 
     // The first and the last corner are on the tangents, at the ends of their edges.
-    const auto along = [](const Point& way, const Point& tangent) {
-        return (way[0] * tangent[0] + way[1] * tangent[1] + way[2] * tangent[2]) /
+    const auto along = [](const Point& delta, const Point& tangent) {
+        return (delta[0] * tangent[0] + delta[1] * tangent[1] + delta[2] * tangent[2]) /
                (tangent[0] * tangent[0] + tangent[1] * tangent[1] + tangent[2] * tangent[2]);
     };
     const auto more = [&](std::int64_t i, double end) {
         const double knots[3] = {knot(i - 1), knot(i), knot(i + 1)};
         const double u = (knots[0] + knots[1] + knots[2]) / 3;
         const ArcCurvePoint from = arc_.at(end);
-        Point way = control(u, knots);
-        for (int axis = 0; axis < axis_count; ++axis) way[axis] -= from.at[axis];
-        return std::fabs(along(way, from.tangent)) - std::fabs(u - end);
+        Point delta = control(u, knots);
+        for (int axis = 0; axis < axis_count; ++axis) delta[axis] -= from.at[axis];
+        return std::fabs(along(delta, from.tangent)) - std::fabs(u - end);
     };
     more_in_ = in > 0 ? more(0, 0) : 0;
     more_out_ = out > 0 ? more(corners_ - 1, length) : 0;
@@ -114,8 +114,8 @@ ArcControlPoint ArcControlPolygon::next() {
         return out;
     }
     const ArcCurvePoint end = arc_.at(i == 0 ? 0 : arc_.length());
-    const double way = i == 0 ? out.u : out.u - length();
-    for (int axis = 0; axis < axis_count; ++axis) out.at[axis] = end.at[axis] + end.tangent[axis] * way;
+    const double delta = i == 0 ? out.u : out.u - length();
+    for (int axis = 0; axis < axis_count; ++axis) out.at[axis] = end.at[axis] + end.tangent[axis] * delta;
     return out;
 }
 

@@ -32,9 +32,9 @@ double rise_of(const LegLimits& leg) {
 }
 
 /// Returns the time until such a leg has covered a distance, limited to its acceleration phase, s.
-double leg_seconds_over(double way, const LegLimits& leg) {
-    const double rise = rise_of(leg), left = way - leg.jerk * rise * rise * rise / 6;
-    if (left <= 0) return cube_root(6 * way / leg.jerk);
+double leg_seconds_over(double distance, const LegLimits& leg) {
+    const double rise = rise_of(leg), left = distance - leg.jerk * rise * rise * rise / 6;
+    if (left <= 0) return cube_root(6 * distance / leg.jerk);
     const double accel = leg.jerk * rise, velocity = 0.5 * accel * rise;
     return std::min(rising_seconds(leg),
                     rise + 2 * left / (velocity + std::sqrt(velocity * velocity + 2 * accel * left)));
@@ -63,10 +63,10 @@ double cost_of(const JerkReduction& ease, const LegLimits& leg) {
     const double jerk = leg.jerk * ease.share, first = cube_root(6 * ease.length / jerk), slow = jerk * first;
     const double accel = std::max(slow, leg.jerk * rise_of(leg)), second = (accel - slow) / leg.jerk;
     const double velocity_then = 0.5 * slow * first, velocity = velocity_then + 0.5 * (slow + accel) * second;
-    const double way = ease.length + second * (velocity_then + second * (0.5 * slow + second * leg.jerk / 6));
+    const double distance = ease.length + second * (velocity_then + second * (0.5 * slow + second * leg.jerk / 6));
     const double rise = accel / leg.jerk;
     const double later = first + second - velocity / accel - 0.5 * rise,
-                 nearer = accel * rise * rise / 24 - (way - 0.5 * velocity * velocity / accel);
+                 nearer = accel * rise * rise / 24 - (distance - 0.5 * velocity * velocity / accel);
     const double all_of_it =
         (rising_seconds(eased(leg, ease.share)) - rising_seconds(leg)) * 2 * ease.length / leg.length;
     return std::max(all_of_it, later + nearer / std::max(velocity, accel * (rising_seconds(leg) - rise)));

@@ -82,23 +82,27 @@ double leg_duration_s(const LegLimits& leg, const Junction& begin, bool stops_at
     if (low.velocity > high.velocity) std::swap(low, high);
     const double rest = std::max(0.0, leg.length - low.half_blend_length - high.half_blend_length);
     const double gain = 0.5 * ((stops_at_begin ? begin.gain : 0) + (stops_at_end ? end.gain : 0));
-    const auto way = [&](double from, double to) { return 0.5 * (from + to) * ramp_duration_s(to - from, leg); };
+    const auto distance_between = [&](double from, double to) {
+        return 0.5 * (from + to) * ramp_duration_s(to - from, leg);
+    };
     const auto turn_seconds = [](const Side& side) {
         return side.half_blend_length > 0 ? side.half_blend_length / side.velocity : 0;
     };
     double seconds = turn_seconds(low) - gain;
-    if (way(low.velocity, high.velocity) > rest) {
-        high.velocity =
-            find_max_velocity(low.velocity, high.velocity, rest, [&](double to) { return way(low.velocity, to); });
+    if (distance_between(low.velocity, high.velocity) > rest) {
+        high.velocity = find_max_velocity(low.velocity, high.velocity, rest,
+                                          [&](double to) { return distance_between(low.velocity, to); });
         return high.velocity > 0 ? seconds + turn_seconds(high) + ramp_duration_s(high.velocity - low.velocity, leg)
                                  : no_corner_limit;
     }
     seconds += turn_seconds(high);
-    const auto ways = [&](double top) { return way(low.velocity, top) + way(high.velocity, top); };
-    const double top = find_max_velocity(high.velocity, leg.velocity, rest, ways);
+    const auto distances = [&](double top) {
+        return distance_between(low.velocity, top) + distance_between(high.velocity, top);
+    };
+    const double top = find_max_velocity(high.velocity, leg.velocity, rest, distances);
     if (top > 0)
         seconds += ramp_duration_s(top - low.velocity, leg) + ramp_duration_s(top - high.velocity, leg) +
-                   std::max(0.0, rest - ways(top)) / top;
+                   std::max(0.0, rest - distances(top)) / top;
     return seconds;
 }
 

@@ -6,13 +6,13 @@ namespace motionrack::control {
 
 void JunctionPlanner::begin() {
     last_ = {};
-    ways_ = {Candidate{}, Candidate{true, 0, 0}};
+    candidates_ = {Candidate{}, Candidate{true, 0, 0}};
     known_ = decided_ = 0;
 }
 
 void JunctionPlanner::add(const LegLimits& leg, const Junction& end) {
     MOTIONRACK_ASSERT(known_ - decided_ <= max_junctions && known_ < 32);
-    ways_ = {time_optimal_to(leg, end, false), time_optimal_to(leg, end, true)};
+    candidates_ = {time_optimal_to(leg, end, false), time_optimal_to(leg, end, true)};
     last_ = end;
     ++known_;
     decide();
@@ -22,12 +22,12 @@ JunctionPlanner::Candidate JunctionPlanner::time_optimal_to(const LegLimits& leg
                                                             bool stops) const {
     Candidate out;
     if (!(stops ? end.can_stop : end.can_pass)) return out;
-    const bool one_way = ways_[0].open != ways_[1].open && !end.is_choice();
+    const bool one_way = candidates_[0].open != candidates_[1].open && !end.is_choice();
     for (const bool stopped : {false, true}) {
-        const Candidate& way = ways_[stopped];
-        if (!way.open) continue;
-        const double seconds = one_way ? 0 : way.seconds + leg_duration_s(leg, last_, stopped, end, stops);
-        if (!out.open || seconds < out.seconds) out = {true, seconds, way.stops};
+        const Candidate& candidate = candidates_[stopped];
+        if (!candidate.open) continue;
+        const double seconds = one_way ? 0 : candidate.seconds + leg_duration_s(leg, last_, stopped, end, stops);
+        if (!out.open || seconds < out.seconds) out = {true, seconds, candidate.stops};
     }
     if (stops) out.stops |= std::uint32_t{1} << known_;
     return out;
@@ -37,17 +37,17 @@ JunctionPlanner::Candidate JunctionPlanner::time_optimal_to(const LegLimits& leg
 /// one.
 void JunctionPlanner::decide() {
     decided_ = known_;
-    if (!ways_[0].open || !ways_[1].open) return;
-    decided_ = static_cast<std::size_t>(std::countr_zero(ways_[0].stops ^ ways_[1].stops));
+    if (!candidates_[0].open || !candidates_[1].open) return;
+    decided_ = static_cast<std::size_t>(std::countr_zero(candidates_[0].stops ^ candidates_[1].stops));
     if (known_ - decided_ <= max_junctions) return;
-    ways_[ways_[0].seconds < ways_[1].seconds].open = false;
+    candidates_[candidates_[0].seconds < candidates_[1].seconds].open = false;
     decided_ = known_;
 }
 
 bool JunctionPlanner::take() {
     MOTIONRACK_ASSERT(decided_ > 0);
-    const bool stop = (ways_[ways_[1].open].stops & 1) != 0;
-    for (Candidate& way : ways_) way.stops >>= 1;
+    const bool stop = (candidates_[candidates_[1].open].stops & 1) != 0;
+    for (Candidate& candidate : candidates_) candidate.stops >>= 1;
     --known_;
     --decided_;
     return stop;

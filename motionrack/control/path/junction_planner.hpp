@@ -39,8 +39,8 @@ class JunctionPlanner {
     void decide();
 
     Junction last_;
-    std::array<Candidate, 2> ways_;  ///< [0] passes, [1] stops
-    std::size_t known_ = 0;          ///< junctions that were not taken
+    std::array<Candidate, 2> candidates_;  ///< [0] passes, [1] stops
+    std::size_t known_ = 0;                ///< junctions that were not taken
     std::size_t decided_ = 0;
 };
 

@@ -76,7 +76,7 @@ Point tangent_on(const CubicSegment& piece, double x) {
     return out;
 }
 
-Point bend_on(const CubicSegment& piece, double x) {
+Point curvature_on(const CubicSegment& piece, double x) {
     Point out;
     for (int i = 0; i < axis_count; ++i) out[i] = piece.curvature[i] + x * piece.curvature_rate[i];
     return out;

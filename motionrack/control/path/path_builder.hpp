@@ -44,7 +44,7 @@ struct CubicSegment {
 
 Point position_on(const CubicSegment& piece, double x);
 Point tangent_on(const CubicSegment& piece, double x);
-Point bend_on(const CubicSegment& piece, double x);
+Point curvature_on(const CubicSegment& piece, double x);
 bool is_straight(const CubicSegment& piece);
 
 /// Output of the builder: a segment of a curve, or the standstill that ends a curve.

@@ -303,15 +303,15 @@ bool SegmentMerger::lies_along(const Point& end, const MergedSegment& next) cons
     double done = 0;
     for (std::size_t k = 0; k <= inner_count_; ++k) {
         const Point& at = k < inner_count_ ? inner_[k] : last_.end;
-        Point way;
-        for (int i = 0; i < axis_count; ++i) way[i] = at[i] - last_.start[i];
-        const double part = dot_from(way, change, first) / square;
+        Point delta;
+        for (int i = 0; i < axis_count; ++i) delta[i] = at[i] - last_.start[i];
+        const double part = dot_from(delta, change, first) / square;
         if (!(part > done && part < 1)) return false;
         done = part;
-        for (int i = 0; i < axis_count; ++i) way[i] -= part * change[i];
-        if (dot_from(way, way, first) > near * near) return false;
+        for (int i = 0; i < axis_count; ++i) delta[i] -= part * change[i];
+        if (dot_from(delta, delta, first) > near * near) return false;
         for (int i = 3; i < axis_count; ++i)
-            if (std::fabs(way[i]) > tolerance.rotary) return false;
+            if (std::fabs(delta[i]) > tolerance.rotary) return false;
     }
     return true;
 }

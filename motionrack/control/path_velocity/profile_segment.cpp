@@ -68,27 +68,27 @@ double square_at(const ProfileSegment& cell, double x) {
 
 }  // namespace
 
-ProfileSegment approximate_cell(double begin, double length, double square, double slope, double bend) {
-    ProfileSegment cell{ProfileSegmentKind::cell, begin, length, 0, square, slope, bend, 0};
+ProfileSegment approximate_cell(double begin, double length, double square, double slope, double curvature) {
+    ProfileSegment cell{ProfileSegmentKind::cell, begin, length, 0, square, slope, curvature, 0};
     cell.seconds = 2 * length / (std::sqrt(square) + std::sqrt(square_at(cell, length)));
     return cell;
 }
 
-ProfileSegment feed_cell(double begin, double length, double square, double slope, double bend) {
-    ProfileSegment cell = approximate_cell(begin, length, square, slope, bend);
+ProfileSegment feed_cell(double begin, double length, double square, double slope, double curvature) {
+    ProfileSegment cell = approximate_cell(begin, length, square, slope, curvature);
     settle(cell);
     return cell;
 }
 
 void settle(ProfileSegment& cell) {
     if (cell.phase != ProfileSegmentKind::cell) return;
-    const double length = cell.length, slope = cell.velocity2_slope, bend = cell.velocity2_curvature;
+    const double length = cell.length, slope = cell.velocity2_slope, curvature = cell.velocity2_curvature;
     const double velocity = std::sqrt(cell.velocity2), end = std::sqrt(square_at(cell, length));
     // It is slower than at both ends only if it decelerates first and accelerates again.
-    const bool dips = slope < 0 && bend > 0 && -slope < bend * length;
-    const double min_velocity = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(velocity, end);
+    const bool dips = slope < 0 && curvature > 0 && -slope < curvature * length;
+    const double min_velocity = dips ? std::sqrt(square_at(cell, -slope / curvature)) : std::min(velocity, end);
     double min_time = 0, max_time = length / std::max(min_velocity, as_good_as_rest * std::max(velocity, end));
-    if (bend < 0) max_time = std::min(max_time, pi / std::sqrt(-0.5 * bend));  // half of a period
+    if (curvature < 0) max_time = std::min(max_time, pi / std::sqrt(-0.5 * curvature));  // half of a period
     double time = std::min(max_time, cell.seconds);
     for (int step = 0; step < 60; ++step) {
         const auto [there, is_reversed] = motion_after(cell, velocity, time);

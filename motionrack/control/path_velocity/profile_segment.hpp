@@ -41,11 +41,11 @@ struct ProfileSegment {
 
 /// Makes a cell with an approximate duration (exact without curvature). `square` must be above 0 on all of it; at an
 /// end beside a standstill it may be rounded to 0.
-ProfileSegment approximate_cell(double begin, double length, double square, double slope, double bend);
+ProfileSegment approximate_cell(double begin, double length, double square, double slope, double curvature);
 /// Computes the exact duration of a cell.
 void settle(ProfileSegment& piece);
 /// Makes a cell with its exact duration.
-ProfileSegment feed_cell(double begin, double length, double square, double slope, double bend);
+ProfileSegment feed_cell(double begin, double length, double square, double slope, double curvature);
 /// Makes a segment of constant jerk from a velocity and an acceleration. All may have any sign as long as u increases.
 ProfileSegment feed_ramp(double begin, double length, double seconds, double velocity, double accel, double jerk);
 /// Make a segment from standstill at `begin` to velocity2 at the end, and the reverse.

@@ -112,10 +112,10 @@ bool write_reduced_jerk_profile(std::span<const LimitInterval> intervals, std::v
     const double peak = *found, jerk = full.jerk;
     const Rise up = begin.to(peak), down = end.to(peak);
     double at = 0;
-    const auto add = [&](double way, double seconds, double velocity, double accel, double change) {
+    const auto add = [&](double distance, double seconds, double velocity, double accel, double change) {
         if (!(seconds > 0)) return;
-        out.push_back(feed_ramp(at, way, seconds, velocity, accel, change));
-        at += way;
+        out.push_back(feed_ramp(at, distance, seconds, velocity, accel, change));
+        at += distance;
     };
     // Without reduced jerk the first phase is the launch.
     const bool eased_begin = begin.eased_way() > 0, eased_end = end.eased_way() > 0;

@@ -240,7 +240,7 @@ void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
         slope = start_.velocity2_slope;
     }
     for (std::size_t i = from_motion ? 1 : 0; i <= n; ++i) {
-        const double way = way_[back ? n - i : i];
+        const double length = way_[back ? n - i : i];
         const double steepest = slopes[back ? n - i : i];
         if (i == 0) {
             slope = steepest;
@@ -249,12 +249,12 @@ void VelocityPlanner::accelerate_pass(std::vector<double>& out, bool back) {
             // at the previous velocity.
             const Cell& cell = cells_[back ? n - i : i - 1];
             const double more = cell.velocity2_curvature * cell.length;
-            const double max_velocity2 = square + std::min(steepest, slope + more / std::sqrt(square)) * way;
+            const double max_velocity2 = square + std::min(steepest, slope + more / std::sqrt(square)) * length;
             slope = std::min(steepest, slope + more / std::sqrt(std::max({max_velocity2, square, out[point(i - 1)]})));
         }
         const std::size_t at = point(i + 1);
-        const double next = square + slope * way, bound = moving() && at < 2 ? next : bound_[at];
-        if (next > bound) slope = std::max(0.0, (bound - square) / way);
+        const double next = square + slope * length, bound = moving() && at < 2 ? next : bound_[at];
+        if (next > bound) slope = std::max(0.0, (bound - square) / length);
         stalls_ = stalls_ || next < min_velocity2;
         out[at] = square = std::max(std::min(next, bound), min_velocity2);
     }

@@ -24,13 +24,13 @@ std::vector<Point> probing_at(std::string_view text, double edge) {
         if ((*step)->kind != CanonCallKind::move) continue;
         ends.push_back((*step)->move.end);
         if ((*step)->probe == Probe::none) continue;
-        Point at = ends.back(), stands = at;
+        Point at = ends.back(), stopped_at = at;
         const bool hit = at[2] < edge;
         if (hit) {
             at[2] = edge;
-            stands[2] = edge - 0.1;
+            stopped_at[2] = edge - 0.1;
         }
-        reader.set_probe_result(hit, at, stands);
+        reader.set_probe_result(hit, at, stopped_at);
     }
 }
 

@@ -58,7 +58,7 @@ struct Grid {
         for (int k = 0; k < count; ++k) {
             const double begin = length * k;
             const Point tangent = tangent_on(piece, begin + 0.5 * length),
-                        curvature = bend_on(piece, begin + 0.5 * length);
+                        curvature = curvature_on(piece, begin + 0.5 * length);
             Cell cell;
             cell.length = length;
             cell.straight = straight;

@@ -9,9 +9,9 @@ namespace motionrack::control {
 namespace {
 
 /// Maximum share of an axis' acceleration and jerk for the curvature; the rest changes the velocity.
-constexpr double accel_of_bend = 0.995, max_jerk_of_bend = 0.97;
+constexpr double max_accel_share = 0.995, max_jerk_share = 0.97;
 /// Share of the remaining jerk for changing the velocity on a curve; the rest changes the acceleration.
-constexpr double share_of_bend = 0.7;
+constexpr double curvature_share = 0.7;
 constexpr double no_limit = 1e300;
 
 struct Range {
@@ -33,21 +33,21 @@ Range tangents_of(double tangent, double curvature, double curvature_rate, doubl
 
 AxisSegmentLimits axis_on(const CubicSegment& piece, const AxisLimits& limits, std::size_t i, const Range& tangents) {
     const double end = piece.curvature[i] + piece.curvature_rate[i] * piece.length;
-    const Range bends{std::min(piece.curvature[i], end), std::max(piece.curvature[i], end)};
+    const Range curvatures{std::min(piece.curvature[i], end), std::max(piece.curvature[i], end)};
     // Curvature with the sign of the tangent reduces the available acceleration; with the opposite sign the
     // deceleration.
-    const bool with = (tangents.max > 0 && bends.max > 0) || (tangents.min < 0 && bends.min < 0);
-    const bool against = (tangents.max > 0 && bends.min < 0) || (tangents.min < 0 && bends.max > 0);
-    const double tangent = tangents.magnitude(), curvature = bends.magnitude(),
+    const bool with = (tangents.max > 0 && curvatures.max > 0) || (tangents.min < 0 && curvatures.min < 0);
+    const bool against = (tangents.max > 0 && curvatures.min < 0) || (tangents.min < 0 && curvatures.max > 0);
+    const double tangent = tangents.magnitude(), curvature = curvatures.magnitude(),
                  jerk = piece.jerk_share * effective_jerk(limits);
     AxisSegmentLimits axis;
     axis.tangent = tangent / limits.max_accel;
     axis.curvature = curvature / limits.max_accel;
-    axis.bend_up = with ? axis.curvature : 0;
-    axis.bend_down = against ? axis.curvature : 0;
+    axis.curvature_up = with ? axis.curvature : 0;
+    axis.curvature_down = against ? axis.curvature : 0;
     axis.jerk_tangent = tangent / jerk;
-    axis.jerk_bend = curvature / jerk;
-    axis.jerk_twist = std::fabs(piece.curvature_rate[i]) / jerk;
+    axis.jerk_curvature = curvature / jerk;
+    axis.jerk_curvature_rate = std::fabs(piece.curvature_rate[i]) / jerk;
     return axis;
 }
 
@@ -59,9 +59,9 @@ SegmentLimits::SegmentLimits(const CubicSegment& piece, const MachineLimits& lim
         if (tangents.magnitude() == 0) continue;
         const AxisSegmentLimits axis = axes[count++] = axis_on(piece, limits[i], i, tangents);
         velocity = std::min(velocity, limits[i].max_velocity / tangents.magnitude());
-        if (axis.curvature > 0) velocity = std::min(velocity, std::sqrt(accel_of_bend / axis.curvature));
-        curvature_rate = std::max(curvature_rate, axis.jerk_twist);
-        straight = straight && axis.curvature == 0 && axis.jerk_twist == 0;
+        if (axis.curvature > 0) velocity = std::min(velocity, std::sqrt(max_accel_share / axis.curvature));
+        curvature_rate = std::max(curvature_rate, axis.jerk_curvature_rate);
+        straight = straight && axis.curvature == 0 && axis.jerk_curvature_rate == 0;
     }
 }
 
@@ -70,10 +70,11 @@ double SegmentLimits::max_velocity_for(double jerk_share) const {
 }
 
 double SegmentLimits::jerk_share_beside(double at_velocity, double accel, double jerk) const {
-    double share = max_jerk_of_bend;
+    double share = max_jerk_share;
     for (std::size_t i = 0; i < count; ++i) {
-        const double bent = 3 * axes[i].jerk_bend * at_velocity * accel;
-        share = std::min(share, 1 - std::max(axes[i].jerk_tangent * jerk + bent, bent / share_of_bend));
+        const double by_curvature = 3 * axes[i].jerk_curvature * at_velocity * accel;
+        share =
+            std::min(share, 1 - std::max(axes[i].jerk_tangent * jerk + by_curvature, by_curvature / curvature_share));
     }
     return std::max(share, max_curvature_share);
 }
@@ -83,18 +84,19 @@ LimitInterval SegmentLimits::up_to(double top, double length) const {
     const double square = out.velocity * out.velocity;
     for (std::size_t i = 0; i < count; ++i) {
         const AxisSegmentLimits& axis = axes[i];
-        const double bent = axis.curvature > 0 ? share_of_bend * (1 - axis.jerk_twist * square * out.velocity) /
-                                                     (3 * axis.jerk_bend * out.velocity)
-                                               : no_limit;
-        out.accel = std::min({out.accel, bent, (1 - axis.bend_up * square) / axis.tangent});
-        out.brake = std::min({out.brake, bent, (1 - axis.bend_down * square) / axis.tangent});
+        const double by_curvature = axis.curvature > 0
+                                        ? curvature_share * (1 - axis.jerk_curvature_rate * square * out.velocity) /
+                                              (3 * axis.jerk_curvature * out.velocity)
+                                        : no_limit;
+        out.accel = std::min({out.accel, by_curvature, (1 - axis.curvature_up * square) / axis.tangent});
+        out.brake = std::min({out.brake, by_curvature, (1 - axis.curvature_down * square) / axis.tangent});
     }
     const double accel = std::max(out.accel, out.brake);
     for (std::size_t i = 0; i < count; ++i) {
         const AxisSegmentLimits& axis = axes[i];
-        out.jerk = std::min(out.jerk,
-                            (1 - axis.jerk_twist * square * out.velocity - 3 * axis.jerk_bend * out.velocity * accel) /
-                                axis.jerk_tangent);
+        out.jerk = std::min(out.jerk, (1 - axis.jerk_curvature_rate * square * out.velocity -
+                                       3 * axis.jerk_curvature * out.velocity * accel) /
+                                          axis.jerk_tangent);
     }
     return out;
 }

@@ -14,9 +14,10 @@ namespace motionrack::control {
 ///     p' v,   p' a + p'' v^2,   p' j + 3 p'' v a + p''' v^3.
 struct AxisSegmentLimits {
     double tangent = 0, curvature = 0;  ///< |p'| and |p''|, relative to its acceleration
-    double bend_up = 0,
-           bend_down = 0;  ///< |p''| where it reduces the available acceleration, and where the deceleration
-    double jerk_tangent = 0, jerk_bend = 0, jerk_twist = 0;  ///< |p'|, |p''| and |p'''|, relative to its jerk
+    double curvature_up = 0,
+           curvature_down = 0;  ///< |p''| where it reduces the available acceleration, and where the deceleration
+    double jerk_tangent = 0, jerk_curvature = 0,
+           jerk_curvature_rate = 0;  ///< |p'|, |p''| and |p'''|, relative to its jerk
 };
 
 struct SegmentLimits {
@@ -39,10 +40,10 @@ struct SegmentLimits {
     /// Return the largest velocity2 that is reachable at a distance `length` after (before) `square`, with the
     /// acceleration that remains there.
     double velocity2_after(double square, double length) const {
-        return compute_reachable_velocities(square, length, &AxisSegmentLimits::bend_up);
+        return compute_reachable_velocities(square, length, &AxisSegmentLimits::curvature_up);
     }
     double velocity2_before(double square, double length) const {
-        return compute_reachable_velocities(square, length, &AxisSegmentLimits::bend_down);
+        return compute_reachable_velocities(square, length, &AxisSegmentLimits::curvature_down);
     }
 
   private:

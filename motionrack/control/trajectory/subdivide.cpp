@@ -22,7 +22,7 @@ CubicSegment sub_move(const CubicSegment& piece, double from, double to) {
     out.length = to - from;
     out.start = position_on(piece, from);
     out.tangent = tangent_on(piece, from);
-    out.curvature = bend_on(piece, from);
+    out.curvature = curvature_on(piece, from);
     return out;
 }
 
@@ -34,8 +34,8 @@ int subdivision_count(const CubicSegment& piece, const MachineLimits& limits) {
         const AxisSegmentLimits& axis = on.axes[i];
         curvature = std::max(curvature, axis.curvature);
         tangent = std::max(tangent, axis.tangent);
-        if (axis.jerk_bend > 0)
-            change = std::max(change, axis.jerk_twist * axis.curvature / axis.jerk_bend * piece.length);
+        if (axis.jerk_curvature > 0)
+            change = std::max(change, axis.jerk_curvature_rate * axis.curvature / axis.jerk_curvature * piece.length);
         rise = std::min(rise, axis.jerk_tangent / axis.tangent);
     }
     const double velocity = on.max_velocity_for(max_curvature_share), square = velocity * velocity;

@@ -78,7 +78,7 @@ class TrajectoryGenerator {
     /// Decelerates to a stop on the path as soon as the limits allow; next() then returns nothing until resume().
     void hold() { held_ = true; }
     void resume() { held_ = false; }
-    bool stands() const { return !(left_ > 0); }
+    bool is_stationary() const { return !(left_ > 0); }
     /// Returns the time until deceleration to the end of the known path begins, s.
     double seconds_to_braking() const { return left_ - braking_; }
 

@@ -27,20 +27,20 @@ constexpr double min_accel = 1e-6;
 constexpr double min_move_length = 1e-6;
 
 /// Returns the length along the path: of XYZ, or of the fastest rotary axis if only rotary axes move.
-double size_of(const Point& way) {
-    const double linear = std::sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
-    return linear > min_length_mm ? linear : std::max({std::fabs(way[3]), std::fabs(way[4]), std::fabs(way[5])});
+double size_of(const Point& delta) {
+    const double linear = std::sqrt(delta[0] * delta[0] + delta[1] * delta[1] + delta[2] * delta[2]);
+    return linear > min_length_mm ? linear : std::max({std::fabs(delta[3]), std::fabs(delta[4]), std::fabs(delta[5])});
 }
 
 Point between(const Point& from, const Point& to) {
-    Point way;
-    for (std::size_t i = 0; i < way.size(); ++i) way[i] = to[i] - from[i];
-    return way;
+    Point delta;
+    for (std::size_t i = 0; i < delta.size(); ++i) delta[i] = to[i] - from[i];
+    return delta;
 }
 
 /// Returns the difference between the velocity of an axis and its velocity on the chord.
-double turn_of(const TrajectoryPoint& state, const Point& way, double length, std::size_t axis) {
-    const double along = length > 0 ? size_of(state.velocity) / length * way[axis] : 0;
+double turn_of(const TrajectoryPoint& state, const Point& delta, double length, std::size_t axis) {
+    const double along = length > 0 ? size_of(state.velocity) / length * delta[axis] : 0;
     return std::fabs(state.velocity[axis] - along);
 }
 
@@ -172,12 +172,12 @@ double TrajectoryInterpolator::snap_to_pulses(const TrajectoryPoint& begin, doub
 /// The velocity sets the pulse spacing of the longest axis. The other axes share its duration: half a pulse more or
 /// less is a velocity step.
 double TrajectoryInterpolator::off_whole_pulses(const Point& begin, const Point& end) const {
-    std::array<double, axis_count> way = {};
-    for (std::size_t i = 0; i < way.size(); ++i)
-        if (limits_[i].present) way[i] = std::fabs(end[i] - begin[i]) * limits_[i].pulses_per_unit;
-    const auto long_axis = static_cast<std::size_t>(std::max_element(way.begin(), way.end()) - way.begin());
+    std::array<double, axis_count> delta = {};
+    for (std::size_t i = 0; i < delta.size(); ++i)
+        if (limits_[i].present) delta[i] = std::fabs(end[i] - begin[i]) * limits_[i].pulses_per_unit;
+    const auto long_axis = static_cast<std::size_t>(std::max_element(delta.begin(), delta.end()) - delta.begin());
     double off = 0;
-    for (std::size_t i = 0; i < way.size(); ++i) {
+    for (std::size_t i = 0; i < delta.size(); ++i) {
         const double pulses = end[i] * limits_[i].pulses_per_unit;
         if (limits_[i].present && i != long_axis) off = std::max(off, std::fabs(pulses - std::round(pulses)));
     }
@@ -188,41 +188,42 @@ double TrajectoryInterpolator::off_whole_pulses(const Point& begin, const Point&
 TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(const TrajectoryPoint& begin,
                                                                                 double seconds) const {
     const TrajectoryPoint middle = generator_.at(0.5 * seconds), end = generator_.at(seconds);
-    const Point way = between(begin.position, end.position), gone = between(begin.position, middle.position);
+    const Point delta = between(begin.position, end.position), gone = between(begin.position, middle.position);
     double square = 0, along = 0, even = 0;
-    for (std::size_t i = 0; i < way.size(); ++i) {
-        square += way[i] * way[i];
-        along += way[i] * gone[i];
-        even += way[i] * seconds * (0.375 * begin.velocity[i] + 0.125 * end.velocity[i]);  // with constant acceleration
+    for (std::size_t i = 0; i < delta.size(); ++i) {
+        square += delta[i] * delta[i];
+        along += delta[i] * gone[i];
+        even +=
+            delta[i] * seconds * (0.375 * begin.velocity[i] + 0.125 * end.velocity[i]);  // with constant acceleration
     }
     ApproximationError out;
-    const double length = size_of(way);
+    const double length = size_of(delta);
     const double per_square = square > 0 ? 1 / square : 0;
-    for (std::size_t i = 0; i < way.size(); ++i) {
+    for (std::size_t i = 0; i < delta.size(); ++i) {
         if (!limits_[i].present) continue;
         const double pulses = limits_[i].pulses_per_unit, jump = limits_[i].max_velocity_step;
-        out.chord_error = std::max(out.chord_error, std::fabs((along - even) * per_square * way[i]) * pulses);
-        out.velocity_step =
-            std::max({out.velocity_step, turn_of(begin, way, length, i) / jump, turn_of(end, way, length, i) / jump});
-        if (way[i] != 0) out.quantisation = std::max(out.quantisation, 0.5 / (pulses * seconds * jump));
+        out.chord_error = std::max(out.chord_error, std::fabs((along - even) * per_square * delta[i]) * pulses);
+        out.velocity_step = std::max(
+            {out.velocity_step, turn_of(begin, delta, length, i) / jump, turn_of(end, delta, length, i) / jump});
+        if (delta[i] != 0) out.quantisation = std::max(out.quantisation, 0.5 / (pulses * seconds * jump));
     }
-    out.chord_error = std::max(out.chord_error, beside(way, per_square, gone));
+    out.chord_error = std::max(out.chord_error, beside(delta, per_square, gone));
     for (const double part : {0.25, 0.75})
         if (out.chord_error <= off_pulses)
             out.chord_error =
                 std::max(out.chord_error,
-                         beside(way, per_square, between(begin.position, generator_.at(part * seconds).position)));
+                         beside(delta, per_square, between(begin.position, generator_.at(part * seconds).position)));
     return out;
 }
 
 /// Returns the largest distance of a motion from the chord, in pulses of an axis.
-double TrajectoryInterpolator::beside(const Point& way, double per_square, const Point& gone) const {
+double TrajectoryInterpolator::beside(const Point& delta, double per_square, const Point& gone) const {
     double along = 0, max_distance = 0;
-    for (std::size_t i = 0; i < way.size(); ++i) along += way[i] * gone[i];
-    for (std::size_t i = 0; i < way.size(); ++i)
+    for (std::size_t i = 0; i < delta.size(); ++i) along += delta[i] * gone[i];
+    for (std::size_t i = 0; i < delta.size(); ++i)
         if (limits_[i].present)
             max_distance =
-                std::max(max_distance, std::fabs(gone[i] - along * per_square * way[i]) * limits_[i].pulses_per_unit);
+                std::max(max_distance, std::fabs(gone[i] - along * per_square * delta[i]) * limits_[i].pulses_per_unit);
     return max_distance;
 }
 

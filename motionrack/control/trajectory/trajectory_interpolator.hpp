@@ -57,7 +57,7 @@ class TrajectoryInterpolator final : public TrajectoryPlanner {
     double snap_to_pulses(const TrajectoryPoint& begin, double seconds) const;
     double off_whole_pulses(const Point& begin, const Point& end) const;
     ApproximationError roughness_of(const TrajectoryPoint& begin, double seconds) const;
-    double beside(const Point& way, double per_square, const Point& gone) const;
+    double beside(const Point& delta, double per_square, const Point& gone) const;
 
     MachineLimits limits_;
     PathLimits path_limits_;

@@ -9,7 +9,7 @@ TrajectoryPoint trajectory_point(const CubicSegment& piece, const PathMotion& al
     out.u = along.u;
     out.line = piece.line;
     out.position = position_on(piece, x);
-    const Point tangent = tangent_on(piece, x), curvature = bend_on(piece, x);
+    const Point tangent = tangent_on(piece, x), curvature = curvature_on(piece, x);
     const double v = along.velocity, a = along.accel, j = along.jerk;
     for (std::size_t i = 0; i < out.position.size(); ++i) {
         out.velocity[i] = tangent[i] * v;

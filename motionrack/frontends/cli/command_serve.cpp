@@ -101,12 +101,12 @@ class Serving {
         MOTIONRACK_CHECK(auth::check_writers(options_.journal, "The journal"));
         journal::JournalSettings book;
         book.max_bytes = options_.journal_megabytes * 1'000'000;
-        book.on_quota = [this](const std::string& sentence) { say(sentence); };
+        book.on_quota = [this](const std::string& sentence) { write_line(sentence); };
         MOTIONRACK_TRY(journal_, journal::Journal::open(options_.journal, std::move(book)));
         if (!journal_->before()) return {};
         operate::LastKnownPositions last = operate::read_last(*journal_->before(), config);
         if (!last.sentence.empty()) print_warning(last.sentence);
-        settings.standing = std::move(last.axes);
+        settings.initial_axes = std::move(last.axes);
         settings.alarm = std::move(last.sentence);
         return {};
     }
@@ -120,7 +120,7 @@ class Serving {
         users_file_ = settings.users_file.string();
         if (!options_.no_pairing)
             settings.on_start_code = [this](const std::string& code) {
-                if (greeted_) say(fmt::format("A code was used. The next one is {}", code));
+                if (greeted_) write_line(fmt::format("A code was used. The next one is {}", code));
             };
         return settings;
     }
@@ -146,14 +146,14 @@ class Serving {
         return settings;
     }
 
-    void say(std::string line) { output_.say(std::move(line)); }
+    void write_line(std::string line) { output_.write_line(std::move(line)); }
 
     /// Called repeatedly on the motion thread.
     void stop_if_asked() {
         warn_of_lost_records();
         if (!stop_asked || stopping_) return;
         stopping_ = true;
-        say("Stopping the axes.");
+        write_line("Stopping the axes.");
         notify_service_manager("STOPPING=1");
         // A stopped clock would never reach standstill.
         operate::ClockPacer& pacer = served_->pacer();
@@ -166,30 +166,32 @@ class Serving {
     void warn_of_lost_records() {
         if (!journal_ || warned_ || journal_->failure().empty()) return;
         warned_ = true;
-        say(journal_->failure() + " The machine holds, and nothing is started.");
+        write_line(journal_->failure() + " The machine holds, and nothing is started.");
     }
 
     void greet(const rack::RackConfig& config) {
         const std::string code = served_->door().start_code();
         const auto live = served_->machine().service().live_places();
-        say(fmt::format(
+        write_line(fmt::format(
             "{} runs ({}, {}; simulated{}).", config.name, rack::count_noun(config.axes.size(), "axis", "axes"),
             rack::count_noun(config.cards.size(), "card"), live.empty() ? "" : ", except for the real cards below"));
         for (const operate::LivePlace& one : live)
-            say(fmt::format("  real     {} at {}: its axes move in service; provide a wired emergency stop", one.card,
-                            one.place));
-        say(fmt::format("  page     {}{}", served_->server().url(), code.empty() ? "" : "#pair=" + code));
+            write_line(fmt::format("  real     {} at {}: its axes move in service; provide a wired emergency stop",
+                                   one.card, one.place));
+        write_line(fmt::format("  page     {}{}", served_->server().url(), code.empty() ? "" : "#pair=" + code));
         if (!code.empty())
-            say(fmt::format("  code     {}   (valid once, for the role maintain; the next one is printed here)", code));
-        if (options_.no_pairing) say("  pairing  none: every user of this computer has all rights");
-        say(fmt::format("  users    {}", users_file_.empty() ? "kept in memory only" : users_file_));
-        say(fmt::format("  journal  {}",
-                        options_.journal.empty() ? "none; --journal FILE keeps one" : options_.journal));
+            write_line(
+                fmt::format("  code     {}   (valid once, for the role maintain; the next one is printed here)", code));
+        if (options_.no_pairing) write_line("  pairing  none: every user of this computer has all rights");
+        write_line(fmt::format("  users    {}", users_file_.empty() ? "kept in memory only" : users_file_));
+        write_line(fmt::format("  journal  {}",
+                               options_.journal.empty() ? "none; --journal FILE keeps one" : options_.journal));
         if (options_.grbl_port)
-            say(fmt::format("  senders  127.0.0.1:{} (Grbl 1.1 over TCP)", served_->grbl()->port()));
+            write_line(fmt::format("  senders  127.0.0.1:{} (Grbl 1.1 over TCP)", served_->grbl()->port()));
         if (!options_.grbl_terminal.empty())
-            say(fmt::format("  senders  {} (Grbl 1.1, a serial line)", options_.grbl_terminal));
-        say("Open the page in a browser, take control there, enable the machine. Ctrl-C stops the axes and ends.");
+            write_line(fmt::format("  senders  {} (Grbl 1.1, a serial line)", options_.grbl_terminal));
+        write_line(
+            "Open the page in a browser, take control there, enable the machine. Ctrl-C stops the axes and ends.");
         greeted_ = true;
     }
 
@@ -203,10 +205,10 @@ class Serving {
             if (const Result<void> closed = journal_->close(); !closed) code = report(closed.error());
         for (const operate::Alarm& alarm : served_->machine().status().alarms) {
             if (!alarm.stays || alarm.source.rfind("card ", 0) != 0) continue;
-            say(alarm.text);
+            write_line(alarm.text);
             code = exit_machine;
         }
-        say(fmt::format("Stopped at{}.", places));
+        write_line(fmt::format("Stopped at{}.", places));
         return code;
     }
 

@@ -28,7 +28,7 @@ ConsoleOutput::~ConsoleOutput() {
     queue_->changed.wait_for(guard, std::chrono::seconds(1), [this] { return queue_->ended; });
 }
 
-void ConsoleOutput::say(std::string line) {
+void ConsoleOutput::write_line(std::string line) {
     {
         const std::lock_guard<std::mutex> guard(queue_->lock);
         if (queue_->lines.size() >= max_lines) queue_->lines.pop_front();

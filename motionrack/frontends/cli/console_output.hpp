@@ -20,7 +20,7 @@ class ConsoleOutput {
     ConsoleOutput& operator=(const ConsoleOutput&) = delete;
 
     /// Queues a line, from any thread. Never blocks on the reader and never fails.
-    void say(std::string line);
+    void write_line(std::string line);
 
   private:
     struct Queue;

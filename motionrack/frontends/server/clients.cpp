@@ -60,7 +60,7 @@ void Clients::tick() {
     std::erase_if(encoded_, [](const auto& one) { return one.first != nullptr && one.second.set.expired(); });
 }
 
-void Clients::tell(const panel::Event& event) {
+void Clients::notify(const panel::Event& event) {
     const auto text = std::make_shared<const std::string>(panel::text_of({{"event", panel::to_json(event)}}));
     const std::vector<std::shared_ptr<Client>> clients = clients_;
     for (const std::shared_ptr<Client>& client : clients) client->send_event(text);

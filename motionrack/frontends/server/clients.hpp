@@ -17,7 +17,7 @@ class Clients {
     void remove(const Client* client);
     /// Called every few ms.
     void tick();
-    void tell(const panel::Event& event);
+    void notify(const panel::Event& event);
     /// Number of clients; any thread.
     std::int64_t count() const { return count_; }
 

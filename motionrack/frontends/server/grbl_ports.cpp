@@ -154,7 +154,7 @@ class GrblPorts::Inside {
         visitor->since = std::chrono::steady_clock::now();
         visitors_.push_back(visitor);
         visitor->line->on_end = [this, raw = visitor.get()] { gone(raw); };
-        visitor->line->on_bytes = [this, raw = visitor.get()](std::string bytes) { heard(*raw, std::move(bytes)); };
+        visitor->line->on_bytes = [this, raw = visitor.get()](std::string bytes) { received(*raw, std::move(bytes)); };
         if (writer_ == nullptr)
             let_write(*visitor);
         else
@@ -172,11 +172,11 @@ class GrblPorts::Inside {
         return true;
     }
     /// No input takes effect before the client is known to be a sender.
-    void heard(Visitor& visitor, std::string bytes) {
+    void received(Visitor& visitor, std::string bytes) {
         using Verdict = grbl::Introduction::Verdict;
         const bool known = visitor.is_sender;
         if (!known) {
-            const Verdict verdict = visitor.introduction.hear(bytes);
+            const Verdict verdict = visitor.introduction.receive(bytes);
             if (verdict == Verdict::stranger) return turn_away(visitor);
             if (verdict == Verdict::open) return visitor.line->read_on();
             visitor.is_sender = true;
@@ -187,7 +187,7 @@ class GrblPorts::Inside {
             visitor.drop_rest_of_line(bytes);
         else
             visitor.ignore(bytes);
-        tcp_port_->hear(std::move(bytes), &visitor == writer_, visitor.address, reading_on(visitor.line));
+        tcp_port_->receive(std::move(bytes), &visitor == writer_, visitor.address, reading_on(visitor.line));
     }
     /// True while the writer is a connection that has not spoken as a sender for too long.
     bool is_held_in_silence() const {
@@ -250,7 +250,7 @@ class GrblPorts::Inside {
         terminal_line_->on_bytes = [this](std::string bytes) {
             look_for_clients();
             if (deaf_ && terminal_->clients() > 0) bytes.clear();
-            terminal_port_->hear(std::move(bytes), true, settings_.link, reading_on(terminal_line_));
+            terminal_port_->receive(std::move(bytes), true, settings_.link, reading_on(terminal_line_));
         };
         watch_.assign(::dup(terminal_->watch()));
         watch_on();

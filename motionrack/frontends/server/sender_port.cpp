@@ -36,7 +36,7 @@ void SenderPort::left() {
     machine_.post([self = shared_from_this()] { self->lease_.left(self->id_); });
 }
 
-void SenderPort::hear(std::string bytes, bool writer, const std::string& address, std::function<void()> then) {
+void SenderPort::receive(std::string bytes, bool writer, const std::string& address, std::function<void()> then) {
     machine_.post([self = shared_from_this(), bytes = std::move(bytes), writer, address, then = std::move(then)] {
         self->speaker_ = address;
         if (writer) {
@@ -71,8 +71,8 @@ void SenderPort::flush(bool greets) {
 
 Result<void> SenderPort::take_control() {
     if (!lease_.check(id_)) {
-        const bool stands = operate::idle(machine_.state());
-        MOTIONRACK_CHECK(lease_.take(user_, id_, stands, stands));
+        const bool is_stationary = operate::idle(machine_.state());
+        MOTIONRACK_CHECK(lease_.take(user_, id_, is_stationary, is_stationary));
     }
     had_control_ = true;
     return {};

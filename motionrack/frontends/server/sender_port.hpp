@@ -24,7 +24,7 @@ class SenderPort : public std::enable_shared_from_this<SenderPort> {
     void came(const std::string& user, const std::string& address, const std::string& id);
     void left();
     /// `address`: of the client that sends them. `then`: called on the motion thread after these bytes were processed.
-    void hear(std::string bytes, bool writer, const std::string& address, std::function<void()> then);
+    void receive(std::string bytes, bool writer, const std::string& address, std::function<void()> then);
 
     // ---- the motion thread
     void tick();

@@ -80,7 +80,7 @@ class Server::Inside {
         pool_->service->panel().on_event(
             [post = post_, pool = std::weak_ptr<ConnectionPool>(pool_)](const panel::Event& event) {
                 (*post)([pool, event] {
-                    if (const auto there = pool.lock()) there->clients.tell(event);
+                    if (const auto there = pool.lock()) there->clients.notify(event);
                 });
             });
         listener_->begin();

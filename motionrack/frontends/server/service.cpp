@@ -282,7 +282,7 @@ void PanelService::audit(const std::string& user, const std::string& address, st
     if (answer.status != 200 && answer.body.contains("error"))
         entry.outcome = answer.body["error"].value("message", "");
     if (is_known) return settings_.audit(entry);
-    unknown_senders_.tell(std::move(entry), network_of(address), at);
+    unknown_senders_.add(std::move(entry), network_of(address), at);
 }
 
 }  // namespace motionrack::server

@@ -6,7 +6,7 @@
 
 namespace motionrack::server {
 
-void UnknownSenderLog::tell(AuditEntry entry, const std::string& network, Time now) {
+void UnknownSenderLog::add(AuditEntry entry, const std::string& network, Time now) {
     if (of_a_network_.take(network, now) && of_all_.take("", now)) return write_(entry);
     if (counted_.empty()) begun_ = now;
     const bool alone = counted_.count(network) != 0 || counted_.size() < max_networks;

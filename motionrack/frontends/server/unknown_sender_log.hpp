@@ -24,7 +24,7 @@ class UnknownSenderLog {
 
     explicit UnknownSenderLog(Write write) : write_(std::move(write)) {}
 
-    void tell(AuditEntry entry, const std::string& network, Time now);
+    void add(AuditEntry entry, const std::string& network, Time now);
     /// Called periodically; writes the summaries.
     void tick(Time now);
 

@@ -50,7 +50,7 @@ TEST(GSender, StreamsByCountingCharacters) {
     std::deque<std::size_t> under_way;
     std::size_t bytes = 0;
     int answered = 0;
-    const auto hear = [&](const std::string& out) {
+    const auto receive = [&](const std::string& out) {
         EXPECT_EQ(out.find("error"), std::string::npos) << out;
         for (int n = answers(out); n > 0 && !under_way.empty(); --n, ++answered) {
             bytes -= under_way.front();
@@ -59,12 +59,12 @@ TEST(GSender, StreamsByCountingCharacters) {
     };
     for (int i = 0; i < 200; ++i) {
         const std::string line = "G1X" + std::to_string(i % 2 * 10) + "Y" + std::to_string(i) + ".125F6000\n";
-        while (bytes + line.size() > 127) hear(b.ask(i == 100 ? "\x91?" : "?", 0.02));
+        while (bytes + line.size() > 127) receive(b.ask(i == 100 ? "\x91?" : "?", 0.02));
         under_way.push_back(line.size());
         bytes += line.size();
-        hear(b.ask(line, 0.002));
+        receive(b.ask(line, 0.002));
     }
-    while (!under_way.empty()) hear(b.ask("", 0.1));
+    while (!under_way.empty()) receive(b.ask("", 0.1));
     EXPECT_EQ(answered, 200);
     b.until_idle();
     EXPECT_NEAR(b.axis(1), 199.125, 1e-3);

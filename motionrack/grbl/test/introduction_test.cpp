@@ -21,14 +21,14 @@ void PrintTo(const Greeting& row, std::ostream* out) {
 class GrblSender : public testing::TestWithParam<Greeting> {};
 TEST_P(GrblSender, IsIdentifiedByItsFirstBytes) {
     Introduction once;
-    EXPECT_EQ(once.hear(GetParam().bytes), Verdict::sender);
+    EXPECT_EQ(once.receive(GetParam().bytes), Verdict::sender);
     EXPECT_EQ(once.take_bytes(), GetParam().bytes);
 }
 TEST_P(GrblSender, IsKnownByTheEndOfItsFirstLineWhenItsBytesComeOneByOne) {
     Introduction slow;
     Verdict verdict = Verdict::open;
     for (const char c : GetParam().bytes)
-        if (verdict == Verdict::open) verdict = slow.hear({&c, 1});
+        if (verdict == Verdict::open) verdict = slow.receive({&c, 1});
     EXPECT_EQ(verdict, Verdict::sender);
 }
 INSTANTIATE_TEST_SUITE_P(
@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
 class UnknownClient : public testing::TestWithParam<Greeting> {};
 TEST_P(UnknownClient, IsIdentifiedByItsFirstBytes) {
     Introduction once;
-    EXPECT_EQ(once.hear(GetParam().bytes), Verdict::stranger);
+    EXPECT_EQ(once.receive(GetParam().bytes), Verdict::stranger);
 }
 INSTANTIATE_TEST_SUITE_P(
     That, UnknownClient,
@@ -61,9 +61,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Introduction, StaysOpenUntilTheFirstLineHasEnded) {
     Introduction slow;
-    EXPECT_EQ(slow.hear("G1 X1"), Verdict::open);
-    EXPECT_EQ(slow.hear("0 F6!00"), Verdict::open);
-    EXPECT_EQ(slow.hear("\n"), Verdict::sender);
+    EXPECT_EQ(slow.receive("G1 X1"), Verdict::open);
+    EXPECT_EQ(slow.receive("0 F6!00"), Verdict::open);
+    EXPECT_EQ(slow.receive("\n"), Verdict::sender);
     EXPECT_EQ(slow.take_bytes(), "G1 X10 F6!00\n");
 }
 
@@ -112,7 +112,7 @@ TEST(Introduction, LetsNoForeignPacketActOnAMachineThatMoves) {
         Introduction introduction;
         Verdict verdict = Verdict::open;
         for (std::size_t at = 0; at < packet.size() && verdict == Verdict::open; at += piece)
-            verdict = introduction.hear(std::string_view(packet).substr(at, piece));
+            verdict = introduction.receive(std::string_view(packet).substr(at, piece));
         if (verdict == Verdict::sender) b.session->receive(introduction.take_bytes());
         ASSERT_EQ(verdict, Verdict::stranger) << "packet " << i;
     }

@@ -16,10 +16,10 @@ TEST(GrblProbe, TellsWhereItTouchedBeforeTheAnswer) {
     EXPECT_THAT(b.ask("$#\n"), HasSubstr("[PRB:20.123,0.000,0.000:1]"));
     EXPECT_THAT(b.ask("G91 G0 X-5\n", 2), EndsWith("ok\r\n"));
     EXPECT_THAT(b.report(), Not(HasSubstr("Pn")));
-    const double stands = b.axis(0);
-    EXPECT_NEAR(stands, 15.3, 0.15);
+    const double stopped_at = b.axis(0);
+    EXPECT_NEAR(stopped_at, 15.3, 0.15);
     EXPECT_EQ(b.ask("G92 X0\nG38.3 X2\n", 4),
-              "ok\r\n[PRB:" + std::to_string(stands + 2).substr(0, 6) + ",0.000,0.000:0]\r\nok\r\n");
+              "ok\r\n[PRB:" + std::to_string(stopped_at + 2).substr(0, 6) + ",0.000,0.000:0]\r\nok\r\n");
 }
 
 TEST(GrblProbe, LinesBehindItWait) {

@@ -57,10 +57,11 @@ TEST(MarkJob, RecordsTheUsedFieldAndTheCourseOfTheSpot) {
 
 TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
     for (const char* mode : {"encoder", "simulated", "mcbsp"})
-        for (const char* way : {"0", "90", "180", "270", "30"}) {
-            MarkingJob job = job_of(mark_belt_job + "direction_deg = " + way + "\n[fly]\nmode = '" + mode + "'\n");
+        for (const char* direction : {"0", "90", "180", "270", "30"}) {
+            MarkingJob job =
+                job_of(mark_belt_job + "direction_deg = " + direction + "\n[fly]\nmode = '" + mode + "'\n");
             EXPECT_LE(run(job).on.deviation.max_mm, std::string(mode) == "mcbsp" ? 0.0045 : 0.003)
-                << mode << ' ' << way;
+                << mode << ' ' << direction;
         }
     for (const char* mode : {"encoder", "simulated", "mcbsp"}) {
         const MarkingOutcome out = run(

@@ -38,11 +38,11 @@ TEST(MarkLine, EachPartIsMarkedATrackDelayBehindItsEdge) {
 
 TEST(MarkLine, EveryWayToFollowPartsIsRight) {
     for (const char* mode : {"encoder", "simulated"})
-        for (const char* way : {"0", "90", "180", "30"})
+        for (const char* direction : {"0", "90", "180", "30"})
             for (const char* counts : {"1000", "-1000"})
                 for (const char* velocity : {"200", "-200"}) {
                     const std::string job = std::string("[drawing]\nsvg = 's'\n[belt]\nvelocity_mm_s = ") + velocity +
-                                            "\ndirection_deg = " + way + "\ncounts_per_mm = " + counts +
+                                            "\ndirection_deg = " + direction + "\ncounts_per_mm = " + counts +
                                             "\n[fly]\nmode = '" + mode +
                                             "'\n[parts]\ncount = 3\nspacing_mm = 50\ntrack_delay_mm = 20\n";
                     const MarkingOutcome out = run(job_of(job));

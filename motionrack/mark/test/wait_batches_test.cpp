@@ -35,10 +35,10 @@ TEST(Waits, EveryPieceIsInTheFieldFromItsWayOn) {
             EXPECT_GT(batch.until_mm, batch.at_mm + 118 / 2.0);
             before = batch.at_mm;
             length += length_of({batch.strokes});
-            for (const double way : {batch.at_mm, batch.until_mm})
+            for (const double travel : {batch.at_mm, batch.until_mm})
                 for (const parts::DrawnSegment& s : segments_of({batch.strokes})) {
-                    EXPECT_LE(std::fabs(s.to.x + way * movement.x), 59.01);
-                    EXPECT_LE(std::fabs(s.to.y + way * movement.y), 59.01);
+                    EXPECT_LE(std::fabs(s.to.x + travel * movement.x), 59.01);
+                    EXPECT_LE(std::fabs(s.to.y + travel * movement.y), 59.01);
                 }
         }
         EXPECT_NEAR(length, length_of(drawing), 1e-6) << "nothing twice, nothing left out";

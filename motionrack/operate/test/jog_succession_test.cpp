@@ -29,10 +29,10 @@ Succession jog_after(const rack::RackConfig& config, FirstJog first, double dist
     bool idle_before = false;
     o.each_status([&](const Status& status) {
         const double x = status.axes[0].commanded;
-        const bool stands = idle(status.state);
-        if (stands && idle_before) seen.moved_idle += std::fabs(x - before);
+        const bool is_stationary = idle(status.state);
+        if (is_stationary && idle_before) seen.moved_idle += std::fabs(x - before);
         before = x;
-        idle_before = stands;
+        idle_before = is_stationary;
     });
     o.run(then_s + 0.1);
     seen.state = o.machine->state();

@@ -148,7 +148,7 @@ TEST_F(JournalWriterTest, TheNextRunContinuesWhereTheMachineStood) {
     end(true);
     open();
     MachineSettings settings;
-    settings.standing = read_last(*journal_->before(), table()).axes;
+    settings.initial_axes = read_last(*journal_->before(), table()).axes;
     run(
         std::move(settings),
         [](const Status& s) { return s.axes[0].commanded == 15 && s.state == MachineState::standstill; },
@@ -196,7 +196,7 @@ TEST_F(JournalWriterTest, AfterAKillItKnowsWhatRanAndWhereAndNoPositionIsValid) 
         },
         [](Machine& m) { ASSERT_TRUE(m.begin_program("(a long way)\nG1 X200 F6000\nM30\n", "part.ngc")); });
     MachineSettings settings;
-    settings.standing = read_last(*journal_->before(), table()).axes;
+    settings.initial_axes = read_last(*journal_->before(), table()).axes;
     settings.alarm = read_last(*journal_->before(), table()).sentence;
     const auto machine = std::move(*Machine::make(table(), std::move(settings)));
     EXPECT_NEAR(machine->status().axes[0].true_position, 50, 12);

@@ -180,15 +180,15 @@ void AxisMechanics::change_motor(Instant now, Change change) {
 
 void AxisMechanics::report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor) {
     const StepperState& after = state_.motor;
-    auto say = [&](AxisCondition code, std::int64_t a, std::int64_t b) {
+    auto report = [&](AxisCondition code, std::int64_t a, std::int64_t b) {
         kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
     };
     const bool new_rate = before.rate_hz != after.rate_hz;
-    if (after.jammed && !before.jammed) say(AxisCondition::axle_held, rotor_before, 0);
+    if (after.jammed && !before.jammed) report(AxisCondition::axle_held, rotor_before, 0);
     if (before.hold == RotorHold::in_step && new_rate && (!motor_.in_step() || rotor != rotor_before))
-        say(AxisCondition::fell_out_of_step, whole(before.rate_hz), whole(after.rate_hz));
+        report(AxisCondition::fell_out_of_step, whole(before.rate_hz), whole(after.rate_hz));
     if (motor_.in_step() && after.lost != before.lost)
-        say(AxisCondition::lost_steps, after.lost - before.lost, after.lost);
+        report(AxisCondition::lost_steps, after.lost - before.lost, after.lost);
 }
 
 bool AxisMechanics::check_ends(Instant now) {

@@ -77,7 +77,7 @@ void AxisMechanics::edges(const sim::EdgeBatch& batch) {
     // A rotor that has just reached its end of travel still delivers the edges up to there; a stationary one delivers
     // none.
     if (!motor_.in_step())
-        size = std::clamp<std::int64_t>((state_.motor.stand - state_.edges_until) * batch.step, 0, size);
+        size = std::clamp<std::int64_t>((state_.motor.rotor_position - state_.edges_until) * batch.step, 0, size);
     if (size == 0) return;
     const std::int64_t first =
         motor_.in_step() ? batch.first_count - state_.motor.lost : state_.edges_until + batch.step;

@@ -30,13 +30,13 @@ bool within(double v, double min, double max) {
 }
 
 /// The first time at which an object has moved `way` (>= 0) upwards; infinity if never.
-double time_for(double way, double velocity, double accel) {
+double time_for(double distance, double velocity, double accel) {
     constexpr double never_s = std::numeric_limits<double>::infinity();
-    if (!(way < never_s)) return never_s;
-    const double under = velocity * velocity + 2 * accel * way;
+    if (!(distance < never_s)) return never_s;
+    const double under = velocity * velocity + 2 * accel * distance;
     if (under < 0) return never_s;
     const double root = std::sqrt(under);
-    if (velocity + root > 0) return 2 * way / (velocity + root);
+    if (velocity + root > 0) return 2 * distance / (velocity + root);
     return accel > 0 ? (root - velocity) / accel : never_s;
 }
 
@@ -191,9 +191,9 @@ void Conveyor::counts(std::int64_t first_tick, std::span<std::int32_t> out) cons
     }
 }
 
-sim::Spot Conveyor::carried(sim::Spot position, double way) const {
-    if (settings_.rotary) return turned(position, settings_.centre_mm, way);
-    return {position.x + way * cosine_, position.y + way * sine_};
+sim::Spot Conveyor::carried(sim::Spot position, double distance) const {
+    if (settings_.rotary) return turned(position, settings_.centre_mm, distance);
+    return {position.x + distance * cosine_, position.y + distance * sine_};
 }
 
 sim::Spot Conveyor::on_part(sim::Spot field, double t_s) const {

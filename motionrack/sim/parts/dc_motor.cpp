@@ -25,7 +25,7 @@ int sign_of(double x) {
 
 // ---- one law
 
-double DcMotorModel::way(double seconds) const {
+double DcMotorModel::travel(double seconds) const {
     const double s = std::min(seconds, end);
     if (lag == 0) return velocity0 * s + aim * s * s * 0.5;
     return aim * s + (velocity0 - aim) * lag * (1 - exponential(-s / lag));
@@ -106,11 +106,11 @@ double DcMotor::seconds(Instant t) const {
 }
 
 double DcMotor::position(Instant t) const {
-    return static_cast<double>(state_.base) + state_.part + state_.law.way(seconds(t));
+    return static_cast<double>(state_.base) + state_.part + state_.law.travel(seconds(t));
 }
 
 std::int64_t DcMotor::count(Instant t) const {
-    return state_.base + static_cast<std::int64_t>(std::floor(state_.part + state_.law.way(seconds(t))));
+    return state_.base + static_cast<std::int64_t>(std::floor(state_.part + state_.law.travel(seconds(t))));
 }
 
 double DcMotor::rate(Instant t) const {
@@ -119,7 +119,7 @@ double DcMotor::rate(Instant t) const {
 
 void DcMotor::begin_law(double velocity, Instant now) {
     hand_over(now);
-    const double here = state_.part + state_.law.way(seconds(now)), whole = std::floor(here);
+    const double here = state_.part + state_.law.travel(seconds(now)), whole = std::floor(here);
     state_.base += static_cast<std::int64_t>(whole);
     state_.part = here - whole;
     state_.since = now;
@@ -131,11 +131,11 @@ void DcMotor::change(Instant now) {
     const double before = rate(now);
     begin_law(state_.held ? 0 : before, now);
     if (state_.law.direction() != 0) state_.blocked = 0;
-    tell(before, now);
+    notify(before, now);
     reschedule();
 }
 
-void DcMotor::tell(double before, Instant now) {
+void DcMotor::notify(double before, Instant now) {
     const double after = rate(now);
     if (after == state_.reported && before == after) return;
     state_.reported = after;
@@ -196,7 +196,7 @@ bool DcMotor::meet_ends(Instant now) {
     state_.blocked = direction;
     state_.law = law_from(0);
     kernel_.report(id_, static_cast<std::uint16_t>(AxisCondition::end_of_travel), direction, state_.base);
-    tell(before, now);
+    notify(before, now);
     return true;
 }
 
@@ -204,7 +204,7 @@ void DcMotor::on_scheduled(Instant now) {
     if (!meet_ends(now) && law_end() <= now) {
         const double before = state_.law.after;
         begin_law(before, now);
-        tell(before, now);
+        notify(before, now);
     }
     listeners_.notify_crossed(state_.watches, count(now), now);
     reschedule();

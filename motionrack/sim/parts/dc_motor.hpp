@@ -47,7 +47,7 @@ struct DcMotorModel {
     double after = 0;      ///< velocity at the end
     static constexpr double endless = 1e9;
 
-    double way(double seconds) const;
+    double travel(double seconds) const;
     double velocity(double seconds) const;
     /// +1, -1, or 0 at standstill.
     int direction() const;
@@ -107,7 +107,7 @@ class DcMotor final : public sim::DeferringDevice, public sim::PositionFunction 
     DcMotorModel law_from(double velocity) const;
     void begin_law(double velocity, Instant now);
     void change(Instant now);
-    void tell(double before, Instant now);
+    void notify(double before, Instant now);
     bool meet_ends(Instant now);
     Instant law_end() const;
     Instant reaches(std::int64_t count) const;

@@ -141,9 +141,9 @@ void LinearStage::begin_law() {
         }
     }
     if (s.velocity == 0) {
-        const bool stands =
+        const bool is_stationary =
             s.held || s.blocked == sign(push) || std::fabs(push) * mass <= settings_.coulomb_friction + s.rubbing;
-        s.half_accel = stands ? 0 : accel_law(push, sign(push));
+        s.half_accel = is_stationary ? 0 : accel_law(push, sign(push));
         s.length = endless;
         if (s.half_accel == 0) return;
     }
@@ -181,11 +181,11 @@ void LinearStage::change(Instant now) {
     const double before = rate(now);
     move_to(now);
     begin_law();
-    tell(before, now);
+    notify(before, now);
     reschedule();
 }
 
-void LinearStage::tell(double before, Instant now) {
+void LinearStage::notify(double before, Instant now) {
     const double after = rate(now);
     if (after == state_.reported && before == after) return;
     state_.reported = after;
@@ -199,8 +199,8 @@ Instant LinearStage::law_end() const {
 }
 
 /// Approximate ticks for a distance `way` (>= 0, in the direction of motion).
-std::int64_t LinearStage::guess(Wide way, std::int64_t last) const {
-    const double d = static_cast<double>(way), v = std::fabs(static_cast<double>(state_.velocity));
+std::int64_t LinearStage::guess(Wide distance, std::int64_t last) const {
+    const double d = static_cast<double>(distance), v = std::fabs(static_cast<double>(state_.velocity));
     const double a = static_cast<double>(state_.half_accel) * direction(), under = v * v + 4 * a * d;
     const double whole = v + (under > 0 ? std::sqrt(under) : 0);
     const double ticks = whole > 0 ? 2 * d / whole : static_cast<double>(last);
@@ -211,7 +211,7 @@ std::int64_t LinearStage::guess(Wide way, std::int64_t last) const {
 Instant LinearStage::reaches(std::int64_t there) const {
     const int way = direction();
     if (way == 0 || there > farthest_stage_counts || there < -farthest_stage_counts) return never;
-    const Wide edge = fine_position(way > 0 ? there : there + 1);
+    const Wide edge = fine_position(distance > 0 ? there : there + 1);
     const auto passed = [&](std::int64_t ticks) {
         return way > 0 ? place_after(ticks) >= edge : place_after(ticks) < edge;
     };
@@ -257,7 +257,7 @@ bool LinearStage::meet_ends(Instant now) {
     begin_law();
     kernel_.report(id_, static_cast<std::uint16_t>(AxisCondition::stage_end), way,
                    (plus ? end_plus_ : end_minus_) / places_per_nm);
-    tell(before, now);
+    notify(before, now);
     return true;
 }
 
@@ -266,7 +266,7 @@ void LinearStage::on_scheduled(Instant now) {
         const double before = rate(now);
         move_to(now);
         begin_law();
-        tell(before, now);
+        notify(before, now);
     }
     listeners_.notify_crossed(state_.watches, count(now), now);
     reschedule();

@@ -111,11 +111,11 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
     std::int64_t accel_law(double push, int direction) const;
     std::int64_t law_length() const;
     void change(Instant now);
-    void tell(double before, Instant now);
+    void notify(double before, Instant now);
     bool meet_ends(Instant now);
     Instant law_end() const;
     Instant reaches(std::int64_t count) const;
-    std::int64_t guess(Wide way, std::int64_t last) const;
+    std::int64_t guess(Wide distance, std::int64_t last) const;
     Instant next(Instant now) const;
     void reschedule() { kernel_.schedule(id_, next(kernel_.now())); }
     void hand_over(Instant now);

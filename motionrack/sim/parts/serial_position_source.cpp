@@ -33,12 +33,12 @@ Result<SerialPositionSource> SerialPositionSource::make(const Conveyor& track, c
 }
 
 std::uint32_t SerialPositionSource::word_at(double t_s) const {
-    const double way = track_->travel(t_s) * settings_.bits_per_mm;
+    const double travel = track_->travel(t_s) * settings_.bits_per_mm;
     const auto whole = [](double v) {
         return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(v + 0.5)));
     };
-    if (!settings_.two_axes) return whole(way);
-    return (whole(way * cosine_) & 0xFFFF) | whole(way * sine_) << 16;
+    if (!settings_.two_axes) return whole(travel);
+    return (whole(travel * cosine_) & 0xFFFF) | whole(travel * sine_) << 16;
 }
 
 void SerialPositionSource::words(std::int64_t first_tick, std::span<std::uint32_t> out) const {

@@ -21,7 +21,7 @@ bool Stepper::may_lock() const {
 
 void Stepper::lock(std::int64_t pulses) {
     const std::int64_t cycle = settings_.electrical_cycle();
-    const std::int64_t behind = pulses - state_.stand;
+    const std::int64_t behind = pulses - state_.rotor_position;
     std::int64_t cycles = floor_div(behind + cycle / 2, cycle);
     if (state_.hold == RotorHold::blocked_plus) cycles = ceil_div(behind, cycle);  // never beyond the end
     if (state_.hold == RotorHold::blocked_minus) cycles = floor_div(behind, cycle);
@@ -36,7 +36,7 @@ void Stepper::change_rate(double rate_hz, std::int64_t pulses) {
         if (may_lock()) lock(pulses);
         return;
     }
-    state_.stand = pulses - state_.lost;
+    state_.rotor_position = pulses - state_.lost;
     state_.hold = RotorHold::stalled;
     if (!may_lock()) return;
     // An abrupt stop: the rotor's momentum carries it on, against the jump.
@@ -48,14 +48,14 @@ void Stepper::change_rate(double rate_hz, std::int64_t pulses) {
 }
 
 void Stepper::block(int direction, std::int64_t end, std::int64_t pulses) {
-    state_.stand = end;
+    state_.rotor_position = end;
     state_.hold = direction > 0 ? RotorHold::blocked_plus : RotorHold::blocked_minus;
     if (may_lock()) lock(pulses);
 }
 
 void Stepper::jam(bool held, std::int64_t pulses) {
     if (held && in_step()) {
-        state_.stand = pulses - state_.lost;
+        state_.rotor_position = pulses - state_.lost;
         state_.hold = RotorHold::stalled;
     }
     state_.jammed = held;
@@ -65,7 +65,7 @@ void Stepper::jam(bool held, std::int64_t pulses) {
 void Stepper::push(std::int64_t distance, std::int64_t pulses) {
     if (distance == 0) return;
     if (!in_step()) {
-        state_.stand += distance;
+        state_.rotor_position += distance;
         state_.hold = RotorHold::stalled;
         if (may_lock()) lock(pulses);
         return;

@@ -32,9 +32,9 @@ struct StepperSettings {
 enum class RotorHold : std::int32_t { in_step, stalled, blocked_plus, blocked_minus };
 
 struct StepperState {
-    double rate_hz = 0;      ///< rate of the pulses
-    std::int64_t lost = 0;   ///< pulses - rotor while in step
-    std::int64_t stand = 0;  ///< position of the rotor while not in step
+    double rate_hz = 0;               ///< rate of the pulses
+    std::int64_t lost = 0;            ///< pulses - rotor while in step
+    std::int64_t rotor_position = 0;  ///< position of the rotor while not in step
     RotorHold hold = RotorHold::in_step;
     std::int32_t jammed = 0;  ///< fault: the axle is blocked
 };
@@ -45,7 +45,7 @@ class Stepper {
     Stepper(const StepperSettings& settings, StepperState& state);
 
     std::int64_t rotor(std::int64_t pulses) const {
-        return state_.hold == RotorHold::in_step ? pulses - state_.lost : state_.stand;
+        return state_.hold == RotorHold::in_step ? pulses - state_.lost : state_.rotor_position;
     }
     /// Rate of the rotor at the pulse rate `rate_hz`.
     double rotor_rate(double rate_hz) const { return state_.hold == RotorHold::in_step ? rate_hz : 0; }

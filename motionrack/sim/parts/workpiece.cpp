@@ -30,12 +30,12 @@ void Workpiece::add(sim::Spot from, sim::Spot to, double joules, double begun_s)
     }
     if (joined && state_.dwell_j == 0) {
         const sim::Spot all = minus(to, state_.start);
-        const double along = all.x * state_.way.x + all.y * state_.way.y,
-                     off = all.x * state_.way.y - all.y * state_.way.x;
+        const double along = all.x * state_.direction.x + all.y * state_.direction.y,
+                     off = all.x * state_.direction.y - all.y * state_.direction.x;
         // Uniform: the length follows the energy, except for the steps of the card's output.
         const double expected = state_.collected_j > 0 ? joules * (state_.collected_mm / state_.collected_j) : mm;
         const bool even = std::abs(mm - expected) <= std::max(0.01 * expected, 2 * settings_.tolerance_mm);
-        const bool onwards = piece.x * state_.way.x + piece.y * state_.way.y >= 0;
+        const bool onwards = piece.x * state_.direction.x + piece.y * state_.direction.y >= 0;
         if (even && onwards && along > 0 && std::abs(off) <= settings_.tolerance_mm) {
             state_.end = to;
             state_.collected_j += joules;
@@ -47,10 +47,10 @@ void Workpiece::add(sim::Spot from, sim::Spot to, double joules, double begun_s)
     state_.chained = joined;
     state_.collecting = true;
     state_.start = from, state_.end = to;
-    state_.way = mm > 0 ? sim::Spot{piece.x / mm, piece.y / mm} : sim::Spot{};
-    const bool stands = mm <= joined_mm;
-    state_.collected_j = stands ? 0 : joules, state_.collected_mm = stands ? 0 : mm;
-    state_.dwell_j = stands ? joules : 0;
+    state_.direction = mm > 0 ? sim::Spot{piece.x / mm, piece.y / mm} : sim::Spot{};
+    const bool is_stationary = mm <= joined_mm;
+    state_.collected_j = is_stationary ? 0 : joules, state_.collected_mm = is_stationary ? 0 : mm;
+    state_.dwell_j = is_stationary ? joules : 0;
     state_.begun_s = begun_s;
 }
 
@@ -91,27 +91,27 @@ Deviation compare(std::span<const MarkedPoint> points, std::span<const DrawnSegm
         if (points[i].first) continue;
         const DrawnSegment s{points[i - 1].at, points[i].at};
         marked.push_back(s);
-        const sim::Spot way = minus(s.to, s.from);
-        const double mm = length_of(way);
-        const double looks = std::ceil(mm / step_mm) + 1;
-        for (double k = 0; k < looks; ++k) {
-            const double part = looks > 1 ? k / (looks - 1) : 0;
-            const sim::Spot at{s.from.x + part * way.x, s.from.y + part * way.y};
+        const sim::Spot delta = minus(s.to, s.from);
+        const double mm = length_of(delta);
+        const double samples = std::ceil(mm / step_mm) + 1;
+        for (double k = 0; k < samples; ++k) {
+            const double part = samples > 1 ? k / (samples - 1) : 0;
+            const sim::Spot at{s.from.x + part * delta.x, s.from.y + part * delta.y};
             const double off = wanted.distance(at);
-            weights += mm / looks;
-            squares += off * off * (mm / looks);
+            weights += mm / samples;
+            squares += off * off * (mm / samples);
             if (off > out.max_mm) out.max_mm = off, out.max_at = at, out.max_s = points[i].begun_s;
         }
     }
     if (weights > 0) out.rms_mm = std::sqrt(squares / weights);
     const NearestSegment found(marked);
     for (const DrawnSegment& s : drawing) {
-        const sim::Spot way = minus(s.to, s.from);
-        const double mm = length_of(way), looks = std::max(1.0, std::ceil(mm / step_mm));
-        for (double k = 0; k < looks; ++k) {
-            const double part = (k + 0.5) / looks;
-            if (found.distance({s.from.x + part * way.x, s.from.y + part * way.y}) > near_mm)
-                out.missing_mm += mm / looks;
+        const sim::Spot delta = minus(s.to, s.from);
+        const double mm = length_of(delta), samples = std::max(1.0, std::ceil(mm / step_mm));
+        for (double k = 0; k < samples; ++k) {
+            const double part = (k + 0.5) / samples;
+            if (found.distance({s.from.x + part * delta.x, s.from.y + part * delta.y}) > near_mm)
+                out.missing_mm += mm / samples;
         }
     }
     return out;
@@ -184,10 +184,10 @@ double NearestSegment::distance(sim::Spot p) const {
 void NearestSegment::look_in(std::size_t square, sim::Spot p, double& best2) const {
     for (std::uint32_t k = begins_[square]; k < begins_[square + 1]; ++k) {
         const DrawnSegment& s = segments_[members_[k]];
-        const sim::Spot way = minus(s.to, s.from), to = minus(p, s.from);
-        const double square_mm = way.x * way.x + way.y * way.y;
-        const double part = square_mm > 0 ? std::clamp((to.x * way.x + to.y * way.y) / square_mm, 0.0, 1.0) : 0;
-        const sim::Spot off{to.x - part * way.x, to.y - part * way.y};
+        const sim::Spot delta = minus(s.to, s.from), to = minus(p, s.from);
+        const double square_mm = delta.x * delta.x + delta.y * delta.y;
+        const double part = square_mm > 0 ? std::clamp((to.x * delta.x + to.y * delta.y) / square_mm, 0.0, 1.0) : 0;
+        const sim::Spot off{to.x - part * delta.x, to.y - part * delta.y};
         best2 = std::min(best2, off.x * off.x + off.y * off.y);
     }
 }

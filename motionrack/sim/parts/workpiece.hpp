@@ -81,7 +81,7 @@ class Workpiece {
         std::int64_t points = 0, lost = 0;
         double length = 0, energy = 0;
         // The segment being collected: from start to end along way (a unit vector).
-        sim::Spot start, end, way;
+        sim::Spot start, end, direction;
         double collected_j = 0, collected_mm = 0, begun_s = 0, dwell_j = 0;
         std::int64_t collecting = 0, chained = 0;
     };

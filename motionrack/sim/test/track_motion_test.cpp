@@ -28,8 +28,8 @@ TEST(Conveyor, TellsWhenItLeavesARange) {
     EXPECT_DOUBLE_EQ(back.leaves(0, -1, 50), 1);
     EXPECT_DOUBLE_EQ(back.leaves(2, 50, 101), 3);
     EXPECT_DOUBLE_EQ(back.leaves(0, -100, 101), 4.5) << "it never comes to 101";
-    const Conveyor stands = track_of({{0, 0}});
-    EXPECT_EQ(stands.leaves(0, -1e-9, 1e-9), never_s);
+    const Conveyor stationary = track_of({{0, 0}});
+    EXPECT_EQ(stationary.leaves(0, -1e-9, 1e-9), never_s);
 }
 
 TEST(Conveyor, ContinuesFromWhereItIsWhenItsVelocityIsChanged) {

@@ -37,7 +37,7 @@ void HomeSearch::begin(const control::HomingRequest& order, const HomeFrame& fra
     outcome_.from = now;
     error_ = {};
     turned_ = zeroed_ = false;
-    way_ = pace_ = step_ = 0;
+    distance_ = pace_ = step_ = 0;
     std::optional<double> hysteresis;
     if (order.hysteresis) hysteresis = *order.hysteresis * frame.counts_per_unit;
     edges_.begin(hysteresis, contacts_repeat * frame.counts_per_unit + 2);
@@ -46,7 +46,7 @@ void HomeSearch::begin(const control::HomingRequest& order, const HomeFrame& fra
     Result<void> begun;
     if (auto here = driver_.position()) {
         counts_ = *here;
-        way_ = static_cast<double>(counts_);
+        distance_ = static_cast<double>(counts_);
         const StatusByte status = driver_.status();
         if (status.emergency())
             begun = failed("the emergency stop is active; release it");
@@ -74,7 +74,7 @@ void HomeSearch::stop() {
 void HomeSearch::leave(Instant now) {
     if (state_ == State::idle) return;
     outcome_.stays.push_back(
-        {std::string(state_name()), since(entered_), to_seconds(now - entered_), entered_way_, way_});
+        {std::string(state_name()), since(entered_), to_seconds(now - entered_), entered_way_, distance_});
 }
 
 /// Converts distances along the search into positions, which are valid from here on.
@@ -84,12 +84,12 @@ void HomeSearch::finish(State state, std::string sentence, Instant now) {
     outcome_.homed = state == State::homed;
     outcome_.sentence = std::move(sentence);
     outcome_.took_s = since(now);
-    const double zero = zeroed_ ? home_way_ : 0, called = zeroed_ ? order_.home_offset : frame_.offset;
-    const auto place_of = [&](double way) { return called + (way - zero) / frame_.counts_per_unit; };
+    const double zero = zeroed_ ? home_distance_ : 0, called = zeroed_ ? order_.home_offset : frame_.offset;
+    const auto place_of = [&](double distance) { return called + (distance - zero) / frame_.counts_per_unit; };
     for (control::HomingStateVisit& stay : outcome_.stays) stay.from = place_of(stay.from), stay.to = place_of(stay.to);
     for (control::HomingEdge& edge : outcome_.edges) edge.position = place_of(edge.position);
-    outcome_.position = place_of(way_);
-    if (zeroed_) outcome_.moved_by = order_.home_offset - place(home_way_);
+    outcome_.position = place_of(distance_);
+    if (zeroed_) outcome_.moved_by = order_.home_offset - place(home_distance_);
 }
 
 // ---- entering a state
@@ -124,7 +124,7 @@ Result<void> HomeSearch::enter(State state, Instant now) {
     leave(now);
     state_ = state;
     entered_ = still_since_ = now;
-    entered_way_ = way_;
+    entered_way_ = distance_;
     marked_ = counted_ = seen_ = off_ = under_ = false;
     stop_seen_ = never;
     switch (state) {
@@ -156,12 +156,12 @@ Result<void> HomeSearch::count(Instant now) {
     if (marked_ && !counted_) {
         step = pace_ * seconds;
         counted_ = true;
-        home_way_ = way_ + step - static_cast<double>(counts);
+        home_distance_ = distance_ + step - static_cast<double>(counts);
     } else if (seconds > 0) {
         pace_ += (step / seconds - pace_) / 8;  // a poll sees whole counts
     }
     if (counts != counts_) still_since_ = now;
-    way_ += step;
+    distance_ += step;
     step_ = std::fabs(step);
     counts_ = counts;
     polled_ = now;
@@ -234,19 +234,19 @@ Result<void> HomeSearch::look_back(Instant now) {
         off_ = false;
     } else if (seen_ && !off_) {
         off_ = true;
-        off_way_ = way_;
-        edges_.released(towards(way_) - step_, 2 * step_);
-        outcome_.edges.push_back({"switch off", std::string(state_name()), way_,
+        off_distance_ = distance_;
+        edges_.released(towards(distance_) - step_, 2 * step_);
+        outcome_.edges.push_back({"switch off", std::string(state_name()), distance_,
                                   std::fabs(pace_) * 1e-3 / frame_.counts_per_unit,
                                   std::fabs(pace_) / frame_.counts_per_unit, since(now)});
     }
-    if (!off_ || std::fabs(way_ - off_way_) < order_.backoff * frame_.counts_per_unit) return {};
+    if (!off_ || std::fabs(distance_ - off_distance_) < order_.backoff * frame_.counts_per_unit) return {};
     return enter(State::back_stop, now);
 }
 
 /// The reference became active between two polls. A distance hidden by the zeroing is known to within one poll.
-Result<void> HomeSearch::check_edge(double way) {
-    const auto conflict = edges_.acted(towards(way) + step_, 2 * step_);
+Result<void> HomeSearch::check_edge(double distance) {
+    const auto conflict = edges_.acted(towards(distance) + step_, 2 * step_);
     if (!conflict) return {};
     return failed(
         fmt::format("the reference is not sound: {}; look for a loose wire and for contacts that break or stick",
@@ -259,11 +259,11 @@ Result<void> HomeSearch::look_search(Instant now) {
     const bool index = (marks() & event::ZERO) != 0;
     if (index && !under_ && driver_.status().reference()) {
         under_ = true;
-        MOTIONRACK_CHECK(check_edge(way_));
+        MOTIONRACK_CHECK(check_edge(distance_));
     }
     if (!marked_) return {};
-    if (!index) MOTIONRACK_CHECK(check_edge(home_way_));
-    outcome_.edges.push_back({index ? "index" : "switch on", std::string(state_name()), home_way_, 0,
+    if (!index) MOTIONRACK_CHECK(check_edge(home_distance_));
+    outcome_.edges.push_back({index ? "index" : "switch on", std::string(state_name()), home_distance_, 0,
                               std::fabs(pace_) / frame_.counts_per_unit, since(now)});
     zeroed_ = true;
     return enter(state_ == State::search ? State::search_stop : State::slow_stop, now);

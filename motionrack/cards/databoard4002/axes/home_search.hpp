@@ -63,8 +63,8 @@ class HomeSearch {
     Result<void> poll(Instant now);
     Result<void> look_back(Instant now);
     Result<void> look_search(Instant now);
-    Result<void> check_edge(double way);
-    double towards(double way) const { return order_.towards_plus ? way : -way; }
+    Result<void> check_edge(double distance);
+    double towards(double distance) const { return order_.towards_plus ? distance : -distance; }
     Result<void> look_standing(Instant now);
     Result<void> check_set_up(const Events& seen) const;
     Result<void> look_at_events(Instant now);
@@ -74,7 +74,7 @@ class HomeSearch {
     void fail_with(const Error& error, Instant now);
     void finish(State state, std::string sentence, Instant now);
     tl::unexpected<Error> failed(const std::string& why) const;
-    double place(double way) const { return frame_.offset + way / frame_.counts_per_unit; }
+    double place(double distance) const { return frame_.offset + distance / frame_.counts_per_unit; }
     /// Seconds from the beginning of the search to `then`.
     double since(Instant then) const { return to_seconds(then - outcome_.from); }
 
@@ -83,21 +83,21 @@ class HomeSearch {
     control::HomingRequest order_;
     HomeFrame frame_;
     State state_ = State::idle;
-    bool seen_ = false;        // BACK: the reference has been active
-    bool turned_ = false;      // an end stop was met
-    bool zeroed_ = false;      // the counter's 0 is home
-    bool marked_ = false;      // the event that the state waits for has occurred
-    bool counted_ = false;     // and is included in the distance
-    bool forward_ = false;     // direction of the present drive
-    std::int64_t counts_ = 0;  // the card's counter
-    double way_ = 0;           // counts along the whole search, without the zeroing
-    double home_way_ = 0;      // distance at which home was found
-    double pace_ = 0;          // velocity at the last poll, counts/s
+    bool seen_ = false;         // BACK: the reference has been active
+    bool turned_ = false;       // an end stop was met
+    bool zeroed_ = false;       // the counter's 0 is home
+    bool marked_ = false;       // the event that the state waits for has occurred
+    bool counted_ = false;      // and is included in the distance
+    bool forward_ = false;      // direction of the present drive
+    std::int64_t counts_ = 0;   // the card's counter
+    double distance_ = 0;       // counts along the whole search, without the zeroing
+    double home_distance_ = 0;  // distance at which home was found
+    double pace_ = 0;           // velocity at the last poll, counts/s
     Instant polled_{};
-    double step_ = 0;     // counts from the last poll to this one
-    SwitchEdges edges_;   // in counts
-    bool under_ = false;  // the reference was active before the index pulse under it
-    double off_way_ = 0;  // BACK: distance at which the reference was released
+    double step_ = 0;          // counts from the last poll to this one
+    SwitchEdges edges_;        // in counts
+    bool under_ = false;       // the reference was active before the index pulse under it
+    double off_distance_ = 0;  // BACK: distance at which the reference was released
     bool off_ = false;
     Instant still_since_{};
     Instant entered_{};

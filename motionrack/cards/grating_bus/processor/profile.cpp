@@ -27,7 +27,7 @@ Setpoint SpeedChange::at(double seconds) const {
         return {place_1 + u * (speed_1 + accel * u / 2), speed_1 + accel * u, accel};
     }
     const double left = duration() - t;  // the last jerk mirrors the first
-    return {way() - left * (to_ - jerk_ * left * left / 6), to_ - jerk_ * left * left / 2, jerk_ * left};
+    return {distance() - left * (to_ - jerk_ * left * left / 6), to_ - jerk_ * left * left / 2, jerk_ * left};
 }
 
 // ---- scan
@@ -77,21 +77,22 @@ bool ScanProfile::scanning(double seconds) const {
 
 StepProfile::StepProfile(double start_nm, double step_nm, int steps, double every_s, const MotionLimits& limits)
     : start_(start_nm), step_(step_nm), steps_(steps), every_(every_s) {
-    const double way = std::fabs(step_nm);
-    MOTIONRACK_ASSERT(way > 0 && steps > 0 && limits.speed_nm_s > 0 && limits.accel_nm_s2 > 0 && limits.jerk_nm_s3 > 0);
-    const auto both = [&](double speed) { return 2 * SpeedChange(0, speed, limits).way(); };
+    const double distance = std::fabs(step_nm);
+    MOTIONRACK_ASSERT(distance > 0 && steps > 0 && limits.speed_nm_s > 0 && limits.accel_nm_s2 > 0 &&
+                      limits.jerk_nm_s3 > 0);
+    const auto both = [&](double speed) { return 2 * SpeedChange(0, speed, limits).distance(); };
     speed_ = limits.speed_nm_s;
-    if (both(speed_) > way) {  // the highest velocity that leaves room to stop
+    if (both(speed_) > distance) {  // the highest velocity that leaves room to stop
         double low = 0;
         for (int i = 0; i < 100; ++i) {
             const double middle = (low + speed_) / 2;
-            (both(middle) > way ? speed_ : low) = middle;
+            (both(middle) > distance ? speed_ : low) = middle;
         }
         speed_ = low;
     }
     up_ = SpeedChange(0, speed_, limits);
     down_ = SpeedChange(speed_, 0, limits);
-    line_s_ = (way - 2 * up_.way()) / speed_;
+    line_s_ = (distance - 2 * up_.distance()) / speed_;
     MOTIONRACK_ASSERT(every_s >= move_s());
 }
 
@@ -104,10 +105,10 @@ Setpoint StepProfile::at(double seconds) const {
     if (t < up_.duration()) {
         out = up_.at(t);
     } else if (t < up_.duration() + line_s_) {
-        out = {up_.way() + speed_ * (t - up_.duration()), speed_, 0};
+        out = {up_.distance() + speed_ * (t - up_.duration()), speed_, 0};
     } else if (t < move_s()) {
         out = down_.at(t - up_.duration() - line_s_);
-        out.position_nm += up_.way() + speed_ * line_s_;
+        out.position_nm += up_.distance() + speed_ * line_s_;
     }
     const double sign = (step_ < 0) != down ? -1 : 1;
     out = geared(out, sign);

@@ -45,7 +45,7 @@ class SpeedChange {
     Setpoint at(double seconds) const;
     double duration() const { return 2 * jerk_s_ + accel_s_; }
     /// Length of the change.
-    double way() const { return (from_ + to_) / 2 * duration(); }
+    double distance() const { return (from_ + to_) / 2 * duration(); }
 
   private:
     double from_ = 0;
@@ -68,7 +68,7 @@ class ScanProfile {
     ScanProfile(double from_nm, double to_nm, const MotionLimits& limits);
     Setpoint at(double seconds) const;
     /// Position of the initial standstill.
-    double start_nm() const { return from_ - start_.way(); }
+    double start_nm() const { return from_ - start_.distance(); }
     /// True if the velocity is constant at `seconds`, in either direction.
     bool scanning(double seconds) const;
     /// Time from reaching `from_nm` to reaching it again in the same direction.

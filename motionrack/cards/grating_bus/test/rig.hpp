@@ -14,9 +14,9 @@ class EvenMotion final : public sim::PositionFunction {
     EvenMotion(std::int64_t from, std::int64_t per_second) : from_(from), per_second_(per_second) {}
     std::int64_t count(Instant t) const override {
         __extension__ using Wide = __int128;
-        const Wide way = Wide{t.count()} * per_second_;
+        const Wide distance = Wide{t.count()} * per_second_;
         constexpr std::int64_t second = whole_seconds(1).count();
-        return from_ + static_cast<std::int64_t>(way / second) - (way % second < 0);
+        return from_ + static_cast<std::int64_t>(distance / second) - (distance % second < 0);
     }
     double rate(Instant) const override { return static_cast<double>(per_second_); }
     void watch(int, std::int64_t, std::int64_t) override {}

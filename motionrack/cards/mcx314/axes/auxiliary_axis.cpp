@@ -113,15 +113,15 @@ Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, s
     if (!driving && left + static_cast<double>(ahead) <= 0) return {};  // it has already arrived
     const double seconds = segment_seconds(segment, driver_.ReadCV(generator_)),
                  late = accesses_to_speed * to_seconds(host_.access) + to_seconds(host_.latency);
-    const double way = std::max(0.0, left / pulses_per_v - from * late);  // V units * seconds
+    const double distance = std::max(0.0, left / pulses_per_v - from * late);  // V units * seconds
     const double planned = segment.auxiliary_speed / pulses_per_v;
-    double wished = planned + way / seconds - (from + planned) / 2, end = std::max(planned, start);
-    if (ahead <= 0) end = wished = start;
-    const std::int32_t v = auxiliary_speed(wished);
+    double desired = planned + distance / seconds - (from + planned) / 2, end = std::max(planned, start);
+    if (ahead <= 0) end = desired = start;
+    const std::int32_t v = auxiliary_speed(desired);
     double slope = std::fabs(v - from) / seconds;
     if (v < from && from > end)
-        slope = way > 0 ? std::max(slope, sure * (from * from - end * end) / (2 * way))
-                        : max_slope;  // an axis that is ahead arrives early
+        slope = distance > 0 ? std::max(slope, sure * (from * from - end * end) / (2 * distance))
+                             : max_slope;  // an axis that is ahead arrives early
     MOTIONRACK_CHECK(driver_.SetA(
         axis, static_cast<std::int32_t>(std::ceil(std::clamp(slope, rules::rate_unit, max_slope) / rules::rate_unit))));
     const double falls_in = std::max(0.0, from * from - start * start) / (2 * max_slope) * pulses_per_v;

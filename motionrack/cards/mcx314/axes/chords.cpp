@@ -93,8 +93,8 @@ void Segmenter::emit_chords(const PendingMove& work, const MoveSpeeds& speeds) {
     chords.back().v = std::min<double>(chords.back().v, speeds.exit);
     for (std::size_t i = chords.size() - 1; i > 0; --i) {
         const Chord& after = chords[i];
-        const Pulses4 way = way_between(work, chords[i - 1].at, after.at);
-        const std::int64_t pulses = basic_pulses(way);
+        const Pulses4 delta = delta_between(work, chords[i - 1].at, after.at);
+        const std::int64_t pulses = basic_pulses(delta);
         const double share = work.auxiliary >= 0 ? auxiliary_share : 1;
         // V units squared; less the steps of whole units and the register accesses before the new speed takes effect.
         const double slope = rules::rate_unit * after.acceleration * share,
@@ -102,7 +102,7 @@ void Segmenter::emit_chords(const PendingMove& work, const MoveSpeeds& speeds) {
         const double braking_length =
             std::max(0.0, (static_cast<double>(pulses) - 2) / pulses_per_v_ - spent * chords[i - 1].v);
         // It begins with the speed of the previous chord.
-        const double max = max_on(way, work.constant_vector).speed;
+        const double max = max_on(delta, work.constant_vector).speed;
         chords[i - 1].v =
             std::min({chords[i - 1].v, max, std::floor(std::sqrt(squared(after.v) + 2 * slope * braking_length))});
     }

@@ -142,7 +142,7 @@ double Segmenter::fall_from(const PendingMove& work, double units, const MoveSpe
 /// remove one.
 bool Segmenter::leaves_time(const PendingMove& work, double from, double to, std::int32_t v) const {
     const Pulses4 begin = from > 0 ? pulses_at(work, from) : at_;
-    const auto pulses = static_cast<double>(basic_pulses(way_between(work, begin, pulses_at(work, to))));
+    const auto pulses = static_cast<double>(basic_pulses(delta_between(work, begin, pulses_at(work, to))));
     return pulses >= counted_reserve / piece_reserve * min_seconds_ * v * pulses_per_v_;
 }
 
@@ -222,8 +222,8 @@ void Segmenter::emit_straight(const PendingMove& work, const MoveSpeeds& speeds)
 /// earlier moves is drawn in the same line.
 bool Segmenter::emit_s_curve(const PendingMove& planned) {
     if (planned.shape != Shape::line || planned.auxiliary >= 0) return false;
-    const Pulses4 way = way_between(planned, at_, planned.to);
-    const auto moving = way.size() - static_cast<std::size_t>(std::count(way.begin(), way.end(), 0));
+    const Pulses4 delta = delta_between(planned, at_, planned.to);
+    const auto moving = delta.size() - static_cast<std::size_t>(std::count(delta.begin(), delta.end(), 0));
     if (moving > 3) return false;
     PendingMove work = planned;
     if (moving > 2 && work.constant_vector) {

@@ -91,8 +91,8 @@ class Segmenter {
 
     PendingMove classify(const control::PlannedMove& move);
     void emit(const PendingMove& work, std::optional<double> next_units);
-    static Pulses4 way_between(const PendingMove& work, const Pulses4& from, const Pulses4& to);
-    static std::int64_t basic_pulses(const Pulses4& way);
+    static Pulses4 delta_between(const PendingMove& work, const Pulses4& from, const Pulses4& to);
+    static std::int64_t basic_pulses(const Pulses4& delta);
     void look_at_next(PendingMove& work, const PendingMove& next) const;
     void make_even(const PendingMove& work, MoveSpeeds& speeds);
     void emit_pause(const PendingMove& work);
@@ -114,7 +114,7 @@ class Segmenter {
     bool leaves_time(const PendingMove& work, double from, double to, std::int32_t v) const;
     std::int32_t speed_units(double units, double speed) const;
     std::int32_t acceleration_units(double units, double acceleration) const;
-    UnitLimits max_on(const Pulses4& way, bool constant_vector) const;
+    UnitLimits max_on(const Pulses4& delta, bool constant_vector) const;
     double start_speed(const control::Point& tangent) const;
 
     AxisMap map_;

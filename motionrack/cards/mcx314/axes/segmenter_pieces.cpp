@@ -124,9 +124,9 @@ void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32
     segment.moves = segment.finish;
     segment.speed = v;
     segment.acceleration = acceleration;
-    Pulses4 way = {};
-    for (std::size_t i = 0; i < segment.axis_count; ++i) way[segment.axes[i]] = segment.finish[i];
-    const UnitLimits limits = max_on(way, segment.constant_vector);
+    Pulses4 delta = {};
+    for (std::size_t i = 0; i < segment.axis_count; ++i) delta[segment.axes[i]] = segment.finish[i];
+    const UnitLimits limits = max_on(delta, segment.constant_vector);
     segment.speed = std::min(segment.speed, limits.speed);
     segment.acceleration = std::min(segment.acceleration, limits.acceleration);
     segment.even = work.move.constant_accel;
@@ -136,9 +136,9 @@ void Segmenter::emit_line(const PendingMove& work, const Pulses4& to, std::int32
 
 /// Speed and acceleration within the limits of all axes on this line: in a short line, rounding gives an axis more than
 /// its share.
-Segmenter::UnitLimits Segmenter::max_on(const Pulses4& way, bool constant_vector) const {
+Segmenter::UnitLimits Segmenter::max_on(const Pulses4& delta, bool constant_vector) const {
     double basic = 0, second = 0;
-    for (const std::int64_t pulses : way) {
+    for (const std::int64_t pulses : delta) {
         const auto size = static_cast<double>(std::llabs(pulses));
         second = std::max(second, std::min(basic, size));
         basic = std::max(basic, size);
@@ -146,8 +146,8 @@ Segmenter::UnitLimits Segmenter::max_on(const Pulses4& way, bool constant_vector
     if (constant_vector) basic += both_axes_extra * second;
     UnitLimits limits;
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
-        if (map_.channel[i] < 0 || way[static_cast<std::size_t>(map_.channel[i])] == 0) continue;
-        const auto own = static_cast<double>(std::llabs(way[static_cast<std::size_t>(map_.channel[i])]));
+        if (map_.channel[i] < 0 || delta[static_cast<std::size_t>(map_.channel[i])] == 0) continue;
+        const auto own = static_cast<double>(std::llabs(delta[static_cast<std::size_t>(map_.channel[i])]));
         const double units = map_.limits[i].pulses_per_unit * basic / own / pulses_per_v_;
         auto at_most = [](double value) {
             return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, max_units));

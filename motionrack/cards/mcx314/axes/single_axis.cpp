@@ -178,8 +178,8 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomingRequest& ord
         return refuse("Homing", "it has no encoder, so no index; home it with type 1 or 2");
     MOTIONRACK_TRY(const RealSetting setting,
                    real_setting({limits.pulses_per_unit}, drive_at(order.search_velocity, false)));
-    const auto pulses = [&](double way) {
-        return static_cast<std::int64_t>(std::min(max_pulses, std::floor(way * limits.pulses_per_unit + 0.5)));
+    const auto pulses = [&](double distance) {
+        return static_cast<std::int64_t>(std::min(max_pulses, std::floor(distance * limits.pulses_per_unit + 0.5)));
     };
     const double unit = rules::clock_hz / static_cast<double>(setting.R) / limits.pulses_per_unit;
     HomeSettings out;
@@ -257,7 +257,7 @@ control::HomingResult SingleAxis::home_outcome() const {
                    : report.stays.empty() ? 0
                                           : place(report.stays.back().to_lp);
     out.moved_by = report.homed ? static_cast<double>(settings.home_position - report.zero_lp) * unit : 0;
-    if (const auto way = report.switch_to_index()) out.switch_to_index = static_cast<double>(*way) * unit;
+    if (const auto distance = report.switch_to_index()) out.switch_to_index = static_cast<double>(*distance) * unit;
     out.from = report.from;
     out.took_s = to_seconds(report.took);
     return out;

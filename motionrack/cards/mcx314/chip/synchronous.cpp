@@ -56,10 +56,10 @@ void Chip::note_comparisons(int a, unsigned risen) {
 void Chip::hear_comparisons(int a) {
     Axis& axis = state_.axis[a];
     const unsigned conditions = state_.extension[a].sm6;
-    unsigned heard = axis.wr1 >> enable_shift & rr3::comparisons.mask;
+    unsigned enabled = axis.wr1 >> enable_shift & rr3::comparisons.mask;
     for (const Comparison& each : comparisons)
-        if (each.condition.test(conditions)) heard |= each.interrupt.mask;
-    axis.comparisons = static_cast<std::uint16_t>(heard);
+        if (each.condition.test(conditions)) enabled |= each.interrupt.mask;
+    axis.comparisons = static_cast<std::uint16_t>(enabled);
 }
 
 /// At the end of a tick or a write: executes the actions of the conditions so far. The consequences of these actions

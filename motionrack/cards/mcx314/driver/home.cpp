@@ -33,8 +33,9 @@ Home::PollData Home::poll() {
     return out;
 }
 
-bool Home::limit_in_way(const PollData& poll, SearchDirection way) const {
-    return (settings_.negative == (way == SearchDirection::towards) ? minus_limit : plus_limit).test(poll.status.rr2);
+bool Home::limit_ahead(const PollData& poll, SearchDirection search_direction) const {
+    return (settings_.negative == (search_direction == SearchDirection::towards) ? minus_limit : plus_limit)
+        .test(poll.status.rr2);
 }
 
 /// The first change of the awaited home input is its edge; every later change is bounce.
@@ -68,7 +69,7 @@ ChipHomingEdge Home::edge_here(const PollData& poll, Instant now) {
             index || state_->until == HomingStopInput::on,
             poll.lp,
             driver_.ReadEPS(axis_),
-            exact ? 0 : rules::magnitude(way_between(last_lp_, poll.lp)) + 1,
+            exact ? 0 : rules::magnitude(pulses_between(last_lp_, poll.lp)) + 1,
             hertz(exact ? speed() : std::max(poll.cv, last_cv_)),
             now};
 }
@@ -164,9 +165,9 @@ void Home::run(const PollData& poll, Instant now) {
         case HomingAction::poll:
             if (poll.switch_on)
                 leave_by(HomingTransition::on, poll, now);
-            else if (limit_in_way(poll, SearchDirection::towards) && !settings_.turn_at_limit)
+            else if (limit_ahead(poll, SearchDirection::towards) && !settings_.turn_at_limit)
                 fail(HomeFault::not_found, poll, now);
-            else if (limit_in_way(poll, SearchDirection::towards))
+            else if (limit_ahead(poll, SearchDirection::towards))
                 turned_ = true, leave_by(HomingTransition::limit, poll, now);
             else
                 leave_by(HomingTransition::off, poll, now);
@@ -234,7 +235,7 @@ void Home::drive(const PollData& poll, Instant now) {
         return driver_.Pulse(mask(), planned_);
     }();
     MOTIONRACK_ASSERT(written.has_value());  // check_ready() has checked the ranges
-    driver_.Drive(mask(), settings_.negative == (state_->way == SearchDirection::towards));
+    driver_.Drive(mask(), settings_.negative == (state_->search_direction == SearchDirection::towards));
     at_speed_ = false;
     braking_.reset();
     deadline_ = now + std::min(settings_.timeout, drive_time(planned_, speed()));
@@ -256,7 +257,8 @@ void Home::wait_end(const PollData& poll, Instant now) {
     if (reached && (!limit || state_->pace != HomingSpeed::fast)) return drive_reached(poll, now);
     if (limit) {
         const bool again = turned_;
-        if (state_->until == HomingStopInput::on && state_->way == SearchDirection::towards) turned_ = true;
+        if (state_->until == HomingStopInput::on && state_->search_direction == SearchDirection::towards)
+            turned_ = true;
         if ((settings_.turn_at_limit && !again) || state_->until == HomingStopInput::distance)
             if (leave_by(HomingTransition::limit, poll, now)) return;
     } else if (state_->until == HomingStopInput::distance) {
@@ -305,11 +307,11 @@ void Home::drive_reached(const PollData& poll, Instant now) {
 
 /// Compares the edges of the approach with those of the previous approach.
 bool Home::is_edge_of_switch(const ChipHomingEdge& edge) {
-    const auto up = static_cast<double>(way_between(report_.stays.front().from_lp, edge.lp));
-    const double way = settings_.negative ? -up : up, within = static_cast<double>(edge.within);
-    if (state_->until == HomingStopInput::off) edges_.released(way, within);
-    if (state_->until == HomingStopInput::on && state_->way == SearchDirection::towards)
-        conflict_ = edges_.acted(way, within);
+    const auto up = static_cast<double>(pulses_between(report_.stays.front().from_lp, edge.lp));
+    const double travel = settings_.negative ? -up : up, within = static_cast<double>(edge.within);
+    if (state_->until == HomingStopInput::off) edges_.released(travel, within);
+    if (state_->until == HomingStopInput::on && state_->search_direction == SearchDirection::towards)
+        conflict_ = edges_.acted(travel, within);
     return !conflict_;
 }
 
@@ -358,7 +360,7 @@ void Home::finish(const PollData& poll, Instant now) {
 
 /// Pulses made by the present drive.
 std::int64_t Home::distance(const PollData& poll) const {
-    return rules::magnitude(way_between(report_.stays.back().from_lp, poll.lp));
+    return rules::magnitude(pulses_between(report_.stays.back().from_lp, poll.lp));
 }
 
 /// Pulses from SV to V plus a hundredth of a second at V, so that a poll falls into it.

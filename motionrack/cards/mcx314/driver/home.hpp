@@ -92,7 +92,7 @@ class Home {
     void note_switch(const PollData& poll, Instant now);
     void note_braking(const PollData& poll, Instant now);
     ChipHomingEdge edge_here(const PollData& poll, Instant now);
-    bool limit_in_way(const PollData& poll, SearchDirection way) const;
+    bool limit_ahead(const PollData& poll, SearchDirection search_direction) const;
     void enter(std::string_view name, const PollData& poll, Instant now);
     bool leave_by(HomingTransition cause, const PollData& poll, Instant now);
     void run(const PollData& poll, Instant now);

@@ -10,12 +10,12 @@ using Exits = std::array<HomeExit, 3>;
 
 // ---- states that the types share
 
-constexpr HomeState drive(std::string_view name, std::string_view meaning, std::string_view next, SearchDirection way,
-                          HomingSpeed pace, HomingStopInput until) {
-    return {name, meaning, HomingAction::drive, {{{done, next}}}, way, pace, until};
+constexpr HomeState drive(std::string_view name, std::string_view meaning, std::string_view next,
+                          SearchDirection search_direction, HomingSpeed pace, HomingStopInput until) {
+    return {name, meaning, HomingAction::drive, {{{done, next}}}, search_direction, pace, until};
 }
 constexpr HomeState wait(std::string_view name, std::string_view meaning, const HomeState& of, Exits exits) {
-    return {name, meaning, HomingAction::wait_end, exits, of.way, of.pace, of.until};
+    return {name, meaning, HomingAction::wait_end, exits, of.search_direction, of.pace, of.until};
 }
 constexpr HomeState wait_steady(std::string_view name, std::string_view meaning, Exits exits) {
     return {name, meaning, HomingAction::wait_steady, exits};

@@ -47,7 +47,7 @@ struct HomeState {
     std::string_view meaning;
     HomingAction does = HomingAction::end;
     std::array<HomeExit, 3> exits = {};
-    SearchDirection way = SearchDirection::towards;
+    SearchDirection search_direction = SearchDirection::towards;
     HomingSpeed pace = HomingSpeed::fast;
     HomingStopInput until = HomingStopInput::distance;
 };

@@ -28,13 +28,13 @@ struct Bound {
 // ---- the report
 
 std::int64_t HomeReport::relative(std::int32_t lp) const {
-    return way_between(zero_lp, lp) + home_position;
+    return pulses_between(zero_lp, lp) + home_position;
 }
 
 std::optional<std::int64_t> HomeReport::switch_to_index() const {
     if (!switch_lp || !index_lp) return {};
-    const std::int64_t way = relative(*index_lp) - relative(*switch_lp);
-    return way < 0 ? -way : way;
+    const std::int64_t distance = relative(*index_lp) - relative(*switch_lp);
+    return distance < 0 ? -distance : distance;
 }
 
 Result<void> HomeReport::result() const {
@@ -151,7 +151,9 @@ std::pair<std::string, std::string> Home::input_failure(const std::string& how_f
             return {fmt::format(
                         "{} was not {} within {} in {} direction{}", switch_text(), found ? "found again" : "found",
                         how_far,
-                        settings_.negative == (table_->state(failed_in_).way == SearchDirection::towards) ? "-" : "+",
+                        settings_.negative == (table_->state(failed_in_).search_direction == SearchDirection::towards)
+                            ? "-"
+                            : "+",
                         turned_ && !found ? ", nor in the other direction up to the limit switch" : ""),
                     "Check its wire and level (RR4, RR5), or search in the other direction or farther"};
         case HomeFault::near_limit:
@@ -165,7 +167,7 @@ std::pair<std::string, std::string> Home::input_failure(const std::string& how_f
                     "Check whether it is stuck or has the other level, or move the axis off it by hand"};
         case HomeFault::edges_differ:
             return {fmt::format("{} is not sound: {}", switch_text(),
-                                conflict_->text([&](double way) { return text(std::llround(way)); })),
+                                conflict_->text([&](double distance) { return text(std::llround(distance)); })),
                     "Check for a loose wire and for contacts that break, stick or bounce for long"};
         case HomeFault::no_index:
             return {fmt::format("{} was not seen within {} after the switch", index, how_far),
@@ -192,7 +194,7 @@ std::string Home::why_failed(const PollData& poll) const {
                                  axis, report_.zero_lp / settings_.pulses_per_unit,
                                  static_cast<double>(settings_.home_position) / settings_.pulses_per_unit,
                                  settings_.unit);
-    const bool at_limit = limit_in_way(poll, SearchDirection::towards) || limit_in_way(poll, SearchDirection::away);
+    const bool at_limit = limit_ahead(poll, SearchDirection::towards) || limit_ahead(poll, SearchDirection::away);
     const std::string how_far = text(failed_after_) + (at_limit ? ", where a limit switch ended the search" : "");
     std::string what, next;
     switch (report_.fault) {

@@ -93,14 +93,14 @@ Result<void> Manual::check_ready(const char* what, std::int64_t v) {
     if ((negative ? field("RR2", "SLMTM") : field("RR2", "SLMTP")).test(status.rr2))
         return refuse(fmt::format("it is beyond the {} software limit; move it in {} direction", negative ? "-" : "+",
                                   negative ? "+" : "-"));
-    if (settings_.travel && way_left(negative) <= 0)
+    if (settings_.travel && distance_left(negative) <= 0)
         return refuse(fmt::format("it is at pulse {}, the {} end of its travel; move it in {} direction",
                                   driver_.ReadLPS(axis_), negative ? "-" : "+", negative ? "+" : "-"));
     return {};
 }
 
 /// Pulses to the end of the travel.
-std::int64_t Manual::way_left(bool negative) {
+std::int64_t Manual::distance_left(bool negative) {
     const std::int64_t at = driver_.ReadLPS(axis_);
     return negative ? at - settings_.travel->min : settings_.travel->max - at;
 }
@@ -111,12 +111,12 @@ Result<void> Manual::begin_jog() {
     const bool negative = wanted_ < 0;
     const std::int64_t v = negative ? -wanted_ : wanted_;
     if (!settings_.travel) return driver_.TCurve_C(mask(), settings_.sv, v, settings_.a, negative);
-    const std::int64_t way = std::min(way_left(negative), param::pulses.max);
+    const std::int64_t distance = std::min(distance_left(negative), param::pulses.max);
     const double pulses_per_v = static_cast<double>(rules::speed_carry) / static_cast<double>(settings_.a) *
                                 driver_.multiple(axis_) / rules::clock_hz;
     reserve_ = RampReserve(settings_.sv, pulses_per_v, v);
     MOTIONRACK_CHECK(driver_.SetAO(mask(), std::min(reserve_.pulses(), param::AO.max)));
-    return driver_.TCurve_F(mask(), settings_.sv, v, settings_.a, negative ? -way : way);
+    return driver_.TCurve_F(mask(), settings_.sv, v, settings_.a, negative ? -distance : distance);
 }
 
 Result<void> Manual::change_speed(std::int64_t v) {
@@ -223,7 +223,7 @@ void Manual::end_drive() {
     if (!settings_.travel || state_ == ManualState::stepping) return;
     static_cast<void>(driver_.SetAO(mask(), std::nullopt));
     const bool negative = wanted_ < 0;
-    if (why_.empty() && state_ == ManualState::jogging && way_left(negative) <= 0)
+    if (why_.empty() && state_ == ManualState::jogging && distance_left(negative) <= 0)
         why_ = fmt::format("the {} soft limit was reached", negative ? "-" : "+");
 }
 

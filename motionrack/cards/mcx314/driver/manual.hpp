@@ -66,7 +66,7 @@ class Manual {
     Result<void> check_ready(const char* what, std::int64_t v);
     Result<void> begin_jog();
     Result<void> change_speed(std::int64_t v);
-    std::int64_t way_left(bool negative);
+    std::int64_t distance_left(bool negative);
     void end_drive();
 
     Driver& driver_;

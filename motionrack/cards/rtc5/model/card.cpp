@@ -51,7 +51,7 @@ sim::WireId Card::busy_wire() const {
 /// Executes the ticks up to and including `now`.
 void Card::catch_up(Instant now) {
     engine_.run_until(now / tick_time + 1, this);
-    tell();
+    notify();
 }
 
 void Card::laser(std::int64_t at, bool on) {
@@ -153,7 +153,7 @@ void Card::count_line(std::size_t encoder, std::int64_t bit, int level, Instant 
     engine_.set_count(static_cast<int>(encoder), static_cast<std::int32_t>(input + static_cast<std::uint32_t>(step)));
 }
 
-void Card::tell() {
+void Card::notify() {
     const State& s = engine_.state();
     const std::int64_t fresh = s.marking_info & ~lines_.reported_flags;
     if (fresh != 0)

@@ -62,7 +62,7 @@ class Card final : public sim::DeferringDevice, private Sink {
     void plan(Instant now);
     void put_out();
     void count_line(std::size_t encoder, std::int64_t bit, int level, Instant now);
-    void tell();
+    void notify();
     void report(CardCondition code, std::int64_t a, std::int64_t tick);
     sim::WireId wire(std::size_t pin) const { return wires_[pin]; }
 

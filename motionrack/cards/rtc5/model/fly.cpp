@@ -298,8 +298,8 @@ Point Engine::fly_of(Point p, bool backwards) const {
 /// Adds the correction to p (so that the correction can be switched off), or removes it.
 void Engine::move_by_fly(bool backwards) {
     if (!state_.fly.on()) return;
-    const Point g = through(state_.global, state_.p), way = fly_of(g, backwards) - g;
-    state_.p = {clipped(state_.p.x + way.x, Kind::coordinate), clipped(state_.p.y + way.y, Kind::coordinate)};
+    const Point g = through(state_.global, state_.p), offset = fly_of(g, backwards) - g;
+    state_.p = {clipped(state_.p.x + offset.x, Kind::coordinate), clipped(state_.p.y + offset.y, Kind::coordinate)};
 }
 
 void Engine::leave_fly() {

@@ -175,9 +175,9 @@ bool Engine::met(std::int64_t before, std::int64_t present) const {
     const std::int64_t value = state_.activity.value[0], mode = state_.activity.value[2];
     if (mode > 0) return present >= value;
     if (mode < 0) return present <= value;
-    const std::int32_t way = wrapped(present - before);
-    if (value > 0) return way > 0 && (wrapped(before - value) < 0) != (wrapped(present - value) < 0);
-    return way < 0 && (wrapped(value - before) < 0) != (wrapped(value - present) < 0);
+    const std::int32_t change = wrapped(present - before);
+    if (value > 0) return change > 0 && (wrapped(before - value) < 0) != (wrapped(present - value) < 0);
+    return change < 0 && (wrapped(value - before) < 0) != (wrapped(value - present) < 0);
 }
 
 /// The same in tick i of the block, whose counts or words are loaded.

@@ -70,8 +70,8 @@ void Engine::finish(std::int64_t tick) {
     if (ending == Ending::laser_off) switch_laser(tick * half_us_per_tick, false, tick);
     if (ending == Ending::jump) {
         std::int64_t delay = d.jump;
-        const Point way = over.to - over.from;
-        const double length = std::sqrt(way.x * way.x + way.y * way.y);
+        const Point delta = over.to - over.from;
+        const double length = std::sqrt(delta.x * delta.x + delta.y * delta.y);
         if (length < d.jump_limit && d.min_jump < d.jump)
             delay = static_cast<std::int64_t>(
                 std::floor(static_cast<double>(d.min_jump) +
@@ -138,8 +138,8 @@ void Engine::begin_hold(std::int64_t ticks, Ending ending) {
 
 void Engine::begin_line(Point target, double speed, Ending ending, std::int64_t steps) {
     Activity& a = state_.activity;
-    const Point way = target - state_.p;
-    const double length = std::sqrt(way.x * way.x + way.y * way.y);
+    const Point delta = target - state_.p;
+    const double length = std::sqrt(delta.x * delta.x + delta.y * delta.y);
     a.kind = ActivityKind::line;
     a.ending = ending;
     a.done = 0;
@@ -147,8 +147,8 @@ void Engine::begin_line(Point target, double speed, Ending ending, std::int64_t 
     a.from = state_.p;
     a.to = target;
     const double n = static_cast<double>(a.steps);
-    a.step = {way.x / n, way.y / n};
-    a.direction = way;
+    a.step = {delta.x / n, delta.y / n};
+    a.direction = delta;
 }
 
 void Engine::begin_arc(const Command& c) {

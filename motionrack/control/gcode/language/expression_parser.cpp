@@ -43,7 +43,7 @@ constexpr double degrees = 180 / pi;
 constexpr std::array<int, 16> strength = {-1, 4, 3, 3, 3, 2, 2, 1, 1, 1, 1, 1, 1, 0, 0, 0};
 
 /// Returns true if `word` is at `at`, in either case.
-bool stands(const char* at, const char* end, std::string_view word) {
+bool matches(const char* at, const char* end, std::string_view word) {
     if (static_cast<std::size_t>(end - at) < word.size()) return false;
     for (std::size_t i = 0; i < word.size(); ++i)
         if (to_lower(at[i]) != word[i]) return false;
@@ -57,7 +57,7 @@ constexpr std::array<std::string_view, 14> function_names = {"abs", "acos", "asi
 /// Returns the function whose name is at `at`, followed by a bracket.
 Function function_at(const char* at, const char* end, const char*& bracket) {
     for (std::size_t i = 0; i < function_names.size(); ++i) {
-        if (!stands(at, end, function_names[i])) continue;
+        if (!matches(at, end, function_names[i])) continue;
         const char* p = at + function_names[i].size();
         while (p < end && is_blank(*p)) ++p;
         if (p == end || *p != '[') continue;
@@ -208,7 +208,7 @@ ExpressionParser::Operator ExpressionParser::operator_at(const char* at, const c
         {"gt", Operator::greater}, {"ge", Operator::not_less}, {"lt", Operator::less},  {"le", Operator::not_greater},
         {"and", Operator::both},   {"or", Operator::any},      {"xor", Operator::one}};
     for (const Sign& sign : signs) {
-        if (!stands(at, end_, sign.text)) continue;
+        if (!matches(at, end_, sign.text)) continue;
         after = at + sign.text.size();
         return sign.what;
     }

@@ -63,11 +63,11 @@ TEST(CurveOfAnything, IsFiniteContinuesAndEndsWhereTheProgramDoes) {
         }
         const auto items = curve_of(numbered(moves), any_machine(maker));
         ASSERT_LT(items.size(), 200'000u);
-        Point stands = {};
+        Point standstill = {};
         double u = 0;
         for (const PathElement& item : items) {
             if (item.rest) {
-                stands = item.at;
+                standstill = item.at;
                 u = 0;
                 continue;
             }
@@ -80,7 +80,7 @@ TEST(CurveOfAnything, IsFiniteContinuesAndEndsWhereTheProgramDoes) {
                 << piece.line;
             u = piece.begin + piece.length;
         }
-        for (int i = 0; i < axis_count; ++i) ASSERT_NEAR(stands[i], at[i], 1.5e-9 + 1e-15 * std::fabs(at[i]));
+        for (int i = 0; i < axis_count; ++i) ASSERT_NEAR(standstill[i], at[i], 1.5e-9 + 1e-15 * std::fabs(at[i]));
         if (::testing::Test::HasFailure()) return;
     }
 }

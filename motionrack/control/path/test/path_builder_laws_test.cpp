@@ -63,13 +63,13 @@ TEST(CurveLaws, PlaceTangentAndBendMeetWherePiecesDo) {
             if (!item.rest && last) {
                 const CubicSegment& piece = item.piece;
                 const double x = last->length;
-                const double bends = max_component(bend_on(piece, piece.length)) + max_component(piece.curvature) +
+                const double bends = max_component(curvature_on(piece, piece.length)) + max_component(piece.curvature) +
                                      max_component(last->curvature);
                 ASSERT_DOUBLE_EQ(last->begin + x, piece.begin) << "line " << piece.line;
                 ASSERT_LE(difference(position_on(*last, x), piece.start), 1e-9) << "line " << piece.line;
                 ASSERT_LE(difference(tangent_on(*last, x), piece.tangent), 1e-9 * (1 + max_component(piece.tangent)))
                     << "line " << piece.line << " u " << piece.begin << " length " << x << " after " << last->line;
-                ASSERT_LE(difference(bend_on(*last, x), piece.curvature), 1e-9 * (1 + bends))
+                ASSERT_LE(difference(curvature_on(*last, x), piece.curvature), 1e-9 * (1 + bends))
                     << "line " << piece.line << " u " << piece.begin << " lengths " << x << " " << piece.length;
             }
             last = item.rest ? nullptr : &item.piece;

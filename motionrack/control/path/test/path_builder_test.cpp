@@ -33,7 +33,8 @@ struct CurvePeaks {
 CurvePeaks peaks_of(const std::vector<CubicSegment>& pieces) {
     CurvePeaks out;
     for (const CubicSegment& piece : pieces) {
-        out.curvature = std::max({out.curvature, xyz_size(piece.curvature), xyz_size(bend_on(piece, piece.length))});
+        out.curvature =
+            std::max({out.curvature, xyz_size(piece.curvature), xyz_size(curvature_on(piece, piece.length))});
         out.curvature_rate = std::max(out.curvature_rate, xyz_size(piece.curvature_rate));
     }
     return out;

@@ -32,8 +32,8 @@ class Oracle {
             const int count = of_piece + static_cast<int>(of_curve * std::min(1.0, piece.length / whole));
             for (int i = 0; i < count; ++i) {
                 const double begin = piece.length * i / count, end = piece.length * (i + 1) / count;
-                steps_.push_back({piece.length / count, tangent_on(piece, begin), bend_on(piece, begin),
-                                  tangent_on(piece, end), bend_on(piece, end)});
+                steps_.push_back({piece.length / count, tangent_on(piece, begin), curvature_on(piece, begin),
+                                  tangent_on(piece, end), curvature_on(piece, end)});
                 caps_.back() = std::min(caps_.back(), cap(steps_.back().tangent_in, piece.feed));
                 caps_.push_back(cap(steps_.back().tangent_out, piece.feed));
             }

@@ -55,7 +55,7 @@ TEST(SegmentLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
             const double x = piece.length * random.between(0, 1), v = top * random.between(0, 1),
                          j = random.between(-span.jerk, span.jerk);
             const double a = k % 2 == 0 ? span.accel : -span.brake;
-            const Point tangent = tangent_on(piece, x), curvature = bend_on(piece, x);
+            const Point tangent = tangent_on(piece, x), curvature = curvature_on(piece, x);
             for (std::size_t i = 0; i < 3; ++i) {
                 ASSERT_LE(std::fabs(tangent[i] * v), machine[i].max_velocity * (1 + 1e-9)) << run;
                 ASSERT_LE(std::fabs(tangent[i] * a + curvature[i] * v * v), machine[i].max_accel * (1 + 1e-9)) << run;

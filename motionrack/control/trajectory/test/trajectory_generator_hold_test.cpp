@@ -65,7 +65,7 @@ TEST(TrajectoryGenerator, StopsSoonAfterFeedHoldAndResumesFromThere) {
     while (driven.generator.next(true) == NextMotion::motion) driven.step(0.001, true);
     // twice sqrt(velocity / jerk): the acceleration limit is not reached
     EXPECT_NEAR(driven.now - asked, 2 * std::sqrt(50 / machine()[0].max_jerk), 0.005);
-    EXPECT_TRUE(driven.generator.stands());
+    EXPECT_TRUE(driven.generator.is_stationary());
     EXPECT_EQ(driven.generator.next(true), NextMotion::nothing);
     driven.generator.resume();
     while (driven.step(0.001, true)) {
@@ -159,7 +159,7 @@ TEST(TrajectoryGenerator, StopsAtTheCornerBeforeWhichItIsHeld) {
     while (driven.generator.left() > 0.005) ASSERT_TRUE(driven.step(0.0005, true));
     ASSERT_LT(driven.now, 0.8 * whole);
     driven.generator.hold();
-    while (!driven.generator.stands()) driven.step(0.0005, true);
+    while (!driven.generator.is_stationary()) driven.step(0.0005, true);
     EXPECT_NEAR(driven.last.position[0], 10, 1e-3);
     EXPECT_NEAR(driven.last.position[1], 0, 1e-3);
     driven.generator.resume();

@@ -45,7 +45,7 @@ TEST(TrajectoryGeneratorDisturbedAtRandom, KeepsAllLimitsAndEndsWhereTheProgramE
         double wish = between(0.05, 0.5), resume = 1e9;
         for (int steps = 0; driven.step(between(0.0005, 0.0025), true) || resume < 1e9; ++steps) {
             ASSERT_LT(steps, 1'000'000);
-            if (driven.generator.stands()) driven.pass_time(0.001);
+            if (driven.generator.is_stationary()) driven.pass_time(0.001);
             if (driven.now > wish && resume == 1e9) {
                 if (random() % 3 == 0) {
                     driven.generator.hold();
@@ -76,7 +76,7 @@ TEST(TrajectoryGenerator, KeepsAllLimitsWheneverMovesCome) {
         double more = 0;
         for (int steps = 0; driven.step(0.001, true); ++steps) {
             ASSERT_LT(steps, 1'000'000);
-            if (driven.generator.stands()) driven.pass_time(0.001);
+            if (driven.generator.is_stationary()) driven.pass_time(0.001);
             if (driven.now < more) continue;
             driven.come += 1 + random() % 10;
             more = driven.now + between(0.01, 0.4);
@@ -97,7 +97,7 @@ TEST(TrajectoryGenerator, ContinuesPastACornerToWhatCameBeforeIt) {
         driven.come = 60;
         while (driven.step(0.001, true)) {
             ASSERT_LT(driven.now, 60);
-            if (driven.generator.stands()) driven.pass_time(0.001);
+            if (driven.generator.is_stationary()) driven.pass_time(0.001);
             if (driven.come != 60 || driven.generator.left() > left || driven.now < 0.1) continue;
             late += driven.last.position[1] == 0;
             driven.come = moves.size();
@@ -130,7 +130,7 @@ TEST(TrajectoryGenerator, AlwaysStopsWithinTheMovesItKnows) {
     Driven driven(moves, {40});
     int looks = 0;
     while (driven.step(0.003, false)) {
-        if (driven.generator.stands() || driven.generator.left() < driven.generator.seconds_to_standstill())
+        if (driven.generator.is_stationary() || driven.generator.left() < driven.generator.seconds_to_standstill())
             continue;  // the next section starts before the end of this one
         const TrajectoryPoint end = driven.generator.at(driven.generator.seconds_to_standstill());
         for (const double velocity : end.velocity) EXPECT_EQ(velocity, 0);

@@ -207,14 +207,14 @@ TEST(TrajectoryInterpolator, StopsBeforeACornerThatWouldTakeMoreAxesThanTheCardI
     const TwoAxes rule;
     InterpolatorSettings settings;
     settings.drive = &rule;
-    const auto stands = [&](const std::vector<Move>& program) {
+    const auto stop_count = [&](const std::vector<Move>& program) {
         int count = 0;
         for (const PlannedMove& move : moves_of(program, settings)) count += move.exit_velocity == 0;
         return count;
     };
-    EXPECT_EQ(stands({line_to({10}, 0.5), line_to({20, 1}, 0.5), line_to({30, 0}, 0.5)}), 1);
-    EXPECT_EQ(stands({line_to({10}, 0.5), line_to({20, 1}, 0.5), line_to({30, 1, 1}, 0.5)}), 2);
-    EXPECT_EQ(stands({line_to({10, 1, 1}, 0.5), line_to({20, 2, 2.1}, 0.5)}), 1);
+    EXPECT_EQ(stop_count({line_to({10}, 0.5), line_to({20, 1}, 0.5), line_to({30, 0}, 0.5)}), 1);
+    EXPECT_EQ(stop_count({line_to({10}, 0.5), line_to({20, 1}, 0.5), line_to({30, 1, 1}, 0.5)}), 2);
+    EXPECT_EQ(stop_count({line_to({10, 1, 1}, 0.5), line_to({20, 2, 2.1}, 0.5)}), 1);
 }
 
 }  // namespace

@@ -128,9 +128,9 @@ TEST(CProgram, AnAnswerOfItsProgressStopsItAlongThePath) {
     EXPECT_THAT(result.sentence, HasSubstr("program:2:1: Stopped on request"));
     EXPECT_GT(world.part("X.position_mm"), 6);
     EXPECT_LT(world.part("X.position_mm"), 15);
-    const double stands = world.part("X.position_mm");
+    const double stopped_at = world.part("X.position_mm");
     world.pass(1'000'000'000);
-    EXPECT_EQ(world.part("X.position_mm"), stands);
+    EXPECT_EQ(world.part("X.position_mm"), stopped_at);
 }
 
 TEST(CProgram, ThatTheMachineStopsOrWhosePositionIsLostIsNotOk) {

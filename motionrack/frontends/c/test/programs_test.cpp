@@ -97,11 +97,11 @@ TEST(CPrograms, OneThatWasStoppedLeavesTheAxesForTheNext) {
         nullptr, 0, [](void*, double seconds, std::int64_t, std::int64_t) { return static_cast<int>(seconds >= 0.2); },
         nullptr};
     run(world, to_15_10, MR_STOPPED, &options);
-    const double stands = world.part("X.position_mm");
-    EXPECT_LT(stands, 14);
+    const double stopped_at = world.part("X.position_mm");
+    EXPECT_LT(stopped_at, 14);
     const mr_run_result result = run(world, to_15_10);
     EXPECT_EQ(result.ok, 1);
-    EXPECT_NEAR(result.path_mm, 15 - stands + 10, 0.01);
+    EXPECT_NEAR(result.path_mm, 15 - stopped_at + 10, 0.01);
     EXPECT_LT(result.deviation_mm, 0.02);
     stands_at(world, 15, 10);
 }

@@ -293,13 +293,13 @@ TEST(Rtc5simInputs, TheBeltMovesTheOutput) {
     EXPECT_EQ(output_x() - begin, 5000);
     EXPECT_EQ(rtc5sim_encoder_speed(1, 0, 0), 0);
     rtc5sim_advance_us(10'000);
-    const int stands = output_x();
-    EXPECT_NEAR(stands - begin, 5000, 5);
+    const int stopped_at = output_x();
+    EXPECT_NEAR(stopped_at - begin, 5000, 5);
     EXPECT_EQ(rtc5sim_encoder_speed(1, 2, 0), -1);
     EXPECT_EQ(rtc5sim_encoder_speed(1, 0, std::nan("")), -1);
     EXPECT_EQ(rtc5sim_encoder_speed(1, 0, 2e9), -1);
     rtc5sim_advance_us(10'000);
-    EXPECT_EQ(output_x(), stands);
+    EXPECT_EQ(output_x(), stopped_at);
 }
 
 TEST(Rtc5simInputs, CountsWordsStartsAndStopsArrive) {

@@ -17,7 +17,7 @@ TEST_F(SenderPorts, GreetAndDriveOverTcp) {
     start();
     EXPECT_EQ(ports_->sender(), "none");
     SenderClient client = tcp();
-    EXPECT_EQ(client.hear(banner), banner);
+    EXPECT_EQ(client.receive(banner), banner);
     EXPECT_THAT(ports_->sender(), StartsWith("tcp 127.0.0.1:"));
     EXPECT_EQ(client.ask("G1 X10 F1200\n"), "ok\r\n");
     EXPECT_THAT(client.until("Idle"), HasSubstr("MPos:10.000,0.000,0.000"));
@@ -28,16 +28,16 @@ TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
     for (int i = 0; i < 3; ++i) {
         while (ports_->sender() != "none") std::this_thread::yield();
         SenderClient client = terminal();
-        EXPECT_EQ(client.hear(banner), banner);
+        EXPECT_EQ(client.receive(banner), banner);
         EXPECT_EQ(ports_->sender(), "pty");
         client.say("G0 X1");  // unterminated: the next client's line must not begin with it
         client.say("?");
-        EXPECT_THAT(client.hear(">\r\n"), StartsWith("<Idle|"));
+        EXPECT_THAT(client.receive(">\r\n"), StartsWith("<Idle|"));
         client.say("?");  // never read
     }
     while (ports_->sender() != "none") std::this_thread::yield();
     SenderClient client = terminal();
-    EXPECT_EQ(client.hear(banner), banner);
+    EXPECT_EQ(client.receive(banner), banner);
     EXPECT_THAT(client.ask("$I\n"), StartsWith("[VER:1.1h"));
 }
 
@@ -54,7 +54,7 @@ TEST_F(SenderPorts, HearALineOfWhoHasGoneAtOnce) {
 TEST_F(SenderPorts, KeepTheTerminalRaw) {
     start();
     SenderClient client = terminal();
-    client.hear(banner);
+    client.receive(banner);
     termios line{};
     ASSERT_EQ(::tcgetattr(client.file(), &line), 0);
     EXPECT_EQ(line.c_lflag & (ICANON | ECHO | ISIG), 0u);
@@ -65,12 +65,12 @@ TEST_F(SenderPorts, KeepTheTerminalRaw) {
 TEST_F(SenderPorts, LetOthersLookOnAndHoldButNotWriteNorReset) {
     start();
     SenderClient writer = tcp();
-    writer.hear(banner);
+    writer.receive(banner);
     SenderClient other = tcp();
-    EXPECT_THAT(other.hear("]\r\n"), StartsWith("[MSG:Another sender has control."));
+    EXPECT_THAT(other.receive("]\r\n"), StartsWith("[MSG:Another sender has control."));
     other.say("G1 X50 F60\n$X\n");
     EXPECT_THAT(other.ask("?", ">\r\n"), HasSubstr("<Idle|MPos:0.000"));
-    EXPECT_THAT(writer.hear(">\r\n"), HasSubstr("<Idle|MPos:0.000"));
+    EXPECT_THAT(writer.receive(">\r\n"), HasSubstr("<Idle|MPos:0.000"));
     writer.say("G4 P100000\n");
     EXPECT_THAT(writer.until("Run"), HasSubstr("<Run"));
     EXPECT_THAT(other.ask("\x18", "machine]\r\n"), HasSubstr("[MSG:The reset of an observer"));
@@ -86,21 +86,21 @@ TEST_F(SenderPorts, LetResetsOfOnlookersStopTheMachineWhereThatIsChosen) {
     writer.say("G4 P100000\n");
     EXPECT_THAT(writer.until("Run"), HasSubstr("<Run"));
     SenderClient other = tcp();
-    other.hear("]\r\n");
+    other.receive("]\r\n");
     other.say("\x18");
-    EXPECT_THAT(writer.hear("help]\r\n"), HasSubstr("ALARM:3\r\n"));
+    EXPECT_THAT(writer.receive("help]\r\n"), HasSubstr("ALARM:3\r\n"));
 }
 
 TEST_F(SenderPorts, LetTheNextOneWriteWhenTheWriterHasGone) {
     start();
     {
         SenderClient first = tcp();
-        first.hear(banner);
+        first.receive(banner);
     }
     std::string greeting;
     for (int i = 0; i < 100 && greeting != banner; ++i) {
         SenderClient next = tcp();
-        greeting = next.hear("]\r\n");
+        greeting = next.receive("]\r\n");
     }
     EXPECT_EQ(greeting, banner);
 }
@@ -114,9 +114,9 @@ TEST_F(SenderPorts, CloseWhatIsNoSenderAndLetItTouchNothing) {
          {std::string("POST / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n\x18"), std::string("\x16\x03\x01\x02\x00\x01\x18", 7),
           std::string("SSH-2.0-OpenSSH_9.2\r\n\x18")}) {
         SenderClient stranger = tcp();
-        stranger.hear("]\r\n");
+        stranger.receive("]\r\n");
         stranger.say(first);
-        EXPECT_EQ(stranger.hear("ok"), "(closed)");
+        EXPECT_EQ(stranger.receive("ok"), "(closed)");
         EXPECT_THAT(writer.ask("?", ">\r\n"), StartsWith("<Run|"));
     }
 }
@@ -125,17 +125,17 @@ TEST_F(SenderPorts, MakeRoomForASenderAmongSilentConnections) {
     settings_.observers = 1;
     start();
     SenderClient first = tcp(), second = tcp();
-    first.hear(banner);
-    second.hear("]\r\n");
+    first.receive(banner);
+    second.receive("]\r\n");
     SenderClient sender = tcp();
-    EXPECT_EQ(sender.hear(banner), banner) << "the oldest silent one had the port";
-    EXPECT_EQ(first.hear("x"), "(closed)");
+    EXPECT_EQ(sender.receive(banner), banner) << "the oldest silent one had the port";
+    EXPECT_EQ(first.receive("x"), "(closed)");
 }
 
 TEST_F(SenderPorts, EnableNoDriveBeforeALineMoves) {
     start();
     SenderClient client = tcp();
-    client.hear(banner);
+    client.receive(banner);
     EXPECT_THAT(client.ask("?", ">\r\n"), StartsWith("<Idle|"));
     client.ask("$$\n");
     EXPECT_EQ(state(), operate::MachineState::disabled);
@@ -149,9 +149,9 @@ TEST_F(SenderPorts, TellASenderWhoStoppedIt) {
     client.say("G4 P100000\n");
     EXPECT_THAT(client.until("Run"), HasSubstr("<Run"));
     machine_->post([this] { machine_->stop({"anna", "192.168.1.5", "STOP"}); });
-    EXPECT_THAT(client.hear("]\r\n"),
+    EXPECT_THAT(client.receive("]\r\n"),
                 AllOf(StartsWith("ALARM:3\r\n[MSG:STOP by anna (192.168.1.5): line "), EndsWith(" was stopped.]\r\n")));
-    EXPECT_EQ(client.hear("\r\n"), "error:9\r\n") << "the dwell";
+    EXPECT_EQ(client.receive("\r\n"), "error:9\r\n") << "the dwell";
     EXPECT_EQ(client.ask("G0 X1\n", "\r\n"), "error:9\r\n");
     EXPECT_EQ(client.ask("$X\n"), "[MSG:Caution: Unlocked]\r\nok\r\n");
     EXPECT_EQ(client.ask("G0 X1\n"), "ok\r\n");
@@ -163,8 +163,8 @@ TEST_F(SenderPorts, LockASenderThatLosesControlInItsWork) {
     EXPECT_EQ(client.ask("G1 X1 F600\nM0\n"), banner + "ok\r\n");
     EXPECT_THAT(client.until("Hold:0"), HasSubstr("Hold:0"));
     machine_->post([this] { EXPECT_TRUE(lease_.take("anna", "w1", true, operate::is_stationary(machine_->state()))); });
-    EXPECT_EQ(client.hear("]\r\n"), "ALARM:3\r\n[MSG:anna has taken control]\r\n");
-    EXPECT_EQ(client.hear("\r\n"), "error:9\r\n") << "the pause";
+    EXPECT_EQ(client.receive("]\r\n"), "ALARM:3\r\n[MSG:anna has taken control]\r\n");
+    EXPECT_EQ(client.receive("\r\n"), "error:9\r\n") << "the pause";
     EXPECT_EQ(client.ask("~G1 X0\n", "\r\n"), "error:9\r\n");
 }
 
@@ -177,9 +177,9 @@ TEST_F(SenderPorts, LetOnlyTheirOwnerOpenTheTerminal) {
 TEST_F(SenderPorts, RefuseLinesOfASenderWhileAnotherHoldsControlOfAMachineThatMoves) {
     start();
     SenderClient first = tcp();
-    first.hear(banner);
+    first.receive(banner);
     SenderClient second = terminal();
-    second.hear(banner);
+    second.receive(banner);
     first.say("G4 P100000\n");
     EXPECT_THAT(second.until("Run"), StartsWith("<Run|"));
     EXPECT_THAT(second.ask("G1 X1 F600\n", "error:9\r\n"), AllOf(StartsWith("[MSG:"), HasSubstr("sender 127.0.0.1:")));
@@ -191,7 +191,7 @@ TEST_F(SenderPorts, RefuseLinesOfASenderWhileAnotherHoldsControlOfAMachineThatMo
 TEST_F(SenderPorts, TellWhichSettingASenderHasChanged) {
     start();
     SenderClient client = terminal();
-    client.hear(banner);
+    client.receive(banner);
     EXPECT_EQ(client.ask("$32=1\n"), "ok\r\n");
     client.ask("$G\n");
     EXPECT_THAT(reported(), AllOf(HasSubstr("sender on"), HasSubstr("$32 is 1")));
@@ -200,7 +200,7 @@ TEST_F(SenderPorts, TellWhichSettingASenderHasChanged) {
 TEST_F(SenderPorts, TakeALineOfAMegabyteWithoutHarm) {
     start();
     SenderClient client = tcp();
-    client.hear(banner);
+    client.receive(banner);
     EXPECT_EQ(client.ask("G1 X1 F600\n"), "ok\r\n");
     EXPECT_EQ(client.ask("G1 X" + std::string(1 << 20, '1') + "\n", "\r\n"), "error:11\r\n");
     EXPECT_EQ(client.ask("G1 X2\n"), "ok\r\n");

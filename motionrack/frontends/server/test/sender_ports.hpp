@@ -47,7 +47,7 @@ class SenderClient {
         ASSERT_EQ(::write(file_.number(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
     }
     /// Reads up to and including `end`; keeps the rest.
-    std::string hear(const std::string& end) {
+    std::string receive(const std::string& end) {
         const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
         while (heard_.find(end) == std::string::npos) {
             pollfd ready{file_.number(), POLLIN, 0};
@@ -65,7 +65,7 @@ class SenderClient {
     }
     std::string ask(const std::string& text, const std::string& end = "ok\r\n") {
         say(text);
-        return hear(end);
+        return receive(end);
     }
     /// Queries the status until it contains `state`.
     std::string until(const std::string& state) {

@@ -112,7 +112,7 @@ TEST(UnknownSenderLog, WritesSomeLinesAndCountsTheOthers) {
     UnknownSenderLog log([&](const AuditEntry& entry) { lines.push_back(entry); });
     UnknownSenderLog::Time now{};
     for (int i = 0; i < 60'000; ++i, now += 1ms) {
-        log.tell({"", "192.0.2.7", "pair", 403, "Not paired."}, "192.0.2.7", now);
+        log.add({"", "192.0.2.7", "pair", 403, "Not paired."}, "192.0.2.7", now);
         log.tick(now);
     }
     EXPECT_LE(lines.size(), 27u);
@@ -128,7 +128,7 @@ TEST(UnknownSenderLog, IsNotFilledByManyNetworksEither) {
     UnknownSenderLog::Time now{};
     for (int i = 0; i < 3'600'000; i += 10, now += 10ms) {
         const std::string address = "2001:db8:0:" + std::to_string(i % 9999) + "::/64";
-        log.tell({"", address, "pair", 403, "Not paired."}, address, now);
+        log.add({"", address, "pair", 403, "Not paired."}, address, now);
         log.tick(now);
     }
     EXPECT_LT(lines, 5'000u) << "within an hour";
