@@ -68,20 +68,21 @@ double square_at(const ProfileSegment& cell, double x) {
 
 }  // namespace
 
-ProfileSegment approximate_cell(double begin, double length, double square, double slope, double curvature) {
-    ProfileSegment cell{ProfileSegmentKind::cell, begin, length, 0, square, slope, curvature, 0};
+ProfileSegment approximate_parabolic_segment(double begin, double length, double square, double slope,
+                                             double curvature) {
+    ProfileSegment cell{ProfileSegmentKind::parabolic, begin, length, 0, square, slope, curvature, 0};
     cell.seconds = 2 * length / (std::sqrt(square) + std::sqrt(square_at(cell, length)));
     return cell;
 }
 
-ProfileSegment feed_cell(double begin, double length, double square, double slope, double curvature) {
-    ProfileSegment cell = approximate_cell(begin, length, square, slope, curvature);
+ProfileSegment parabolic_segment(double begin, double length, double square, double slope, double curvature) {
+    ProfileSegment cell = approximate_parabolic_segment(begin, length, square, slope, curvature);
     settle(cell);
     return cell;
 }
 
 void settle(ProfileSegment& cell) {
-    if (cell.phase != ProfileSegmentKind::cell) return;
+    if (cell.kind != ProfileSegmentKind::parabolic) return;
     const double length = cell.length, slope = cell.velocity2_slope, curvature = cell.velocity2_curvature;
     const double velocity = std::sqrt(cell.velocity2), end = std::sqrt(square_at(cell, length));
     // It is slower than at both ends only if it decelerates first and accelerates again.
@@ -105,30 +106,31 @@ void settle(ProfileSegment& cell) {
     cell.seconds = time;
 }
 
-ProfileSegment feed_ramp(double begin, double length, double seconds, double velocity, double accel, double jerk) {
-    return {ProfileSegmentKind::ramp, begin, length, seconds, velocity * velocity, 2 * accel, 0, jerk};
+ProfileSegment constant_jerk_segment(double begin, double length, double seconds, double velocity, double accel,
+                                     double jerk) {
+    return {ProfileSegmentKind::constant_jerk, begin, length, seconds, velocity * velocity, 2 * accel, 0, jerk};
 }
 
 // velocity = jerk t^2/2, length = jerk t^3/6
-ProfileSegment feed_launch(double begin, double length, double square) {
+ProfileSegment from_rest_segment(double begin, double length, double square) {
     const double velocity = std::sqrt(square), seconds = 3 * length / velocity;
-    return {ProfileSegmentKind::launch, begin, length, seconds, 0, 0, 0, 2 * velocity / (seconds * seconds)};
+    return {ProfileSegmentKind::from_rest, begin, length, seconds, 0, 0, 0, 2 * velocity / (seconds * seconds)};
 }
 
-ProfileSegment feed_landing(double begin, double length, double square) {
-    ProfileSegment out = feed_launch(begin, length, square);
-    out.phase = ProfileSegmentKind::landing;
+ProfileSegment to_rest_segment(double begin, double length, double square) {
+    ProfileSegment out = from_rest_segment(begin, length, square);
+    out.kind = ProfileSegmentKind::to_rest;
     return out;
 }
 
 PathMotion ProfileSegment::at(double time) const {
-    if (phase == ProfileSegmentKind::launch)
+    if (kind == ProfileSegmentKind::from_rest)
         return {begin + jerk * time * time * time / 6, jerk * time * time / 2, jerk * time, jerk};
-    if (phase == ProfileSegmentKind::landing) {
+    if (kind == ProfileSegmentKind::to_rest) {
         const double left = seconds - time;
         return {begin + length - jerk * left * left * left / 6, jerk * left * left / 2, -jerk * left, jerk};
     }
-    if (phase == ProfileSegmentKind::ramp) {
+    if (kind == ProfileSegmentKind::constant_jerk) {
         const double velocity = std::sqrt(velocity2), accel = 0.5 * velocity2_slope;
         return {begin + time * (velocity + time * (0.5 * accel + time * (1.0 / 6) * jerk)),
                 velocity + time * (accel + 0.5 * time * jerk), accel + time * jerk, jerk};
@@ -140,7 +142,7 @@ PathMotion ProfileSegment::at(double time) const {
 }
 
 PathMotion ProfileSegment::last() const {
-    if (phase != ProfileSegmentKind::cell) return at(seconds);
+    if (kind != ProfileSegmentKind::parabolic) return at(seconds);
     const double velocity = std::sqrt(square_at(*this, length));
     return {begin + length, velocity, 0.5 * (velocity2_slope + velocity2_curvature * length),
             0.5 * velocity2_curvature * velocity};

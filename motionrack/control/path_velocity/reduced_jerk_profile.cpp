@@ -114,13 +114,14 @@ bool write_reduced_jerk_profile(std::span<const LimitInterval> intervals, std::v
     double at = 0;
     const auto add = [&](double distance, double seconds, double velocity, double accel, double change) {
         if (!(seconds > 0)) return;
-        out.push_back(feed_ramp(at, distance, seconds, velocity, accel, change));
+        out.push_back(constant_jerk_segment(at, distance, seconds, velocity, accel, change));
         at += distance;
     };
     // Without reduced jerk the first phase is the launch.
     const bool eased_begin = begin.eased_way() > 0, eased_end = end.eased_way() > 0;
     at = eased_begin ? begin.eased_way() : up.steeper_way;
-    out.push_back(feed_launch(0, at, eased_begin ? begin.velocity() * begin.velocity() : up.even_from * up.even_from));
+    out.push_back(
+        from_rest_segment(0, at, eased_begin ? begin.velocity() * begin.velocity() : up.even_from * up.even_from));
     if (eased_begin) add(up.steeper_way, up.steeper, begin.velocity(), begin.accel(), jerk);
     add(up.even_way, up.even, up.even_from, up.accel, 0);
     add(up.flatter_way, up.flatter, up.even_until, up.accel, -jerk);
@@ -131,7 +132,7 @@ bool write_reduced_jerk_profile(std::span<const LimitInterval> intervals, std::v
     if (eased_end) add(down.steeper_way, down.steeper, down.even_from, -down.accel, jerk);
     const double landing = eased_end ? end.eased_way() : down.steeper_way,
                  landing_velocity = eased_end ? end.velocity() : down.even_from;
-    out.push_back(feed_landing(length - landing, landing, landing_velocity * landing_velocity));
+    out.push_back(to_rest_segment(length - landing, landing, landing_velocity * landing_velocity));
     return true;
 }
 

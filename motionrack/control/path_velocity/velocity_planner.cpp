@@ -91,15 +91,15 @@ void VelocityPlanner::solve_from_previous() {
     left_.assign(cells_.size() + 2, 0);
     std::size_t k = 0, known = before_.size();  // the profile segment with the velocity at this point
     double begin = 0, end = 0;
-    const auto square_at = [&](double place) {
-        while (k + 1 < before_.size() && before_[k + 1].begin <= place) ++k;
+    const auto square_at = [&](double u) {
+        while (k + 1 < before_.size() && before_[k + 1].begin <= u) ++k;
         const ProfileSegment& piece = before_[k];
         if (known != k) {
             begin = piece.at(0).velocity;
             end = piece.last().velocity;
             known = k;
         }
-        const double part = std::clamp((place - piece.begin) / piece.length, 0.0, 1.0);
+        const double part = std::clamp((u - piece.begin) / piece.length, 0.0, 1.0);
         return begin * begin + part * (end * end - begin * begin);
     };
     double at_begin = cells_.empty() ? 0 : square_at(cells_.front().begin);

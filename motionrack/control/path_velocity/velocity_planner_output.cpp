@@ -17,14 +17,14 @@ void VelocityPlanner::write_s_curve(const LimitInterval& limits) {
     const double jerk = limits.jerk, accel = curve.peak_accel(), peak = curve.peak();
     const double rise = ends[0], even = ends[1] - ends[0], cruise = ends[3] - ends[2];
     const double part = jerk * rise * rise * rise / 6, gain = 0.5 * jerk * rise * rise, top = peak - gain;
-    const ProfileSegment launch{ProfileSegmentKind::launch, 0, part, rise, 0, 0, 0, jerk};
+    const ProfileSegment launch{ProfileSegmentKind::from_rest, 0, part, rise, 0, 0, 0, jerk};
     ProfileSegment landing = launch;
-    landing.phase = ProfileSegmentKind::landing;
+    landing.kind = ProfileSegmentKind::to_rest;
     landing.begin = length_ - part;
     double begin = part;
     const auto add = [&](double seconds, double length, double velocity, double now, double more) {
         if (!(seconds > 0)) return;
-        pieces_.push_back(feed_ramp(begin, length, seconds, velocity, now, more));
+        pieces_.push_back(constant_jerk_segment(begin, length, seconds, velocity, now, more));
         begin += length;
     };
     pieces_.push_back(launch);
@@ -59,8 +59,8 @@ void VelocityPlanner::write_travel(const LimitInterval& limits) {
         }
         const double on = seconds * (at.velocity + seconds * (0.5 * at.accel + seconds * at.jerk * (1.0 / 6)));
         const double length = lands ? at.velocity * seconds / 3 : on;
-        pieces_.push_back(lands ? feed_landing(length_ - length, length, at.velocity * at.velocity)
-                                : feed_ramp(begin, length, seconds, at.velocity, at.accel, at.jerk));
+        pieces_.push_back(lands ? to_rest_segment(length_ - length, length, at.velocity * at.velocity)
+                                : constant_jerk_segment(begin, length, seconds, at.velocity, at.accel, at.jerk));
         begin += length;
     }
 }
@@ -69,16 +69,17 @@ void VelocityPlanner::write() {
     const std::size_t n = cells_.size();
     const auto slope = [&](std::size_t knot) { return (square_[knot + 1] - square_[knot]) / way_[knot]; };
     const double first = slope(0) * 0.75 * launch_.length, last = -slope(n) * 0.75 * landing_.length;
-    if (!moving()) pieces_.push_back(feed_launch(0, launch_.length, first));
+    if (!moving()) pieces_.push_back(from_rest_segment(0, launch_.length, first));
     double before = slope(0);
     for (std::size_t i = 0; i < n; ++i) {
         const double after = slope(i + 1);
         const Cell& cell = cells_[i];
-        pieces_.push_back(approximate_cell(cell.begin, cell.length, square_[i + 1] - 0.5 * before * cell.length, before,
-                                           (after - before) / cell.length));
+        pieces_.push_back(approximate_parabolic_segment(cell.begin, cell.length,
+                                                        square_[i + 1] - 0.5 * before * cell.length, before,
+                                                        (after - before) / cell.length));
         before = after;
     }
-    pieces_.push_back(feed_landing(length_ - landing_.length, landing_.length, last));
+    pieces_.push_back(to_rest_segment(length_ - landing_.length, landing_.length, last));
 }
 
 }  // namespace motionrack::control

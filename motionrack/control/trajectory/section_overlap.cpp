@@ -23,7 +23,7 @@ constexpr int overlap_samples = 4;
 constexpr double along_reserve = 0.02;
 
 bool is_constant_jerk(const ProfileSegment& piece) {
-    return piece.phase != ProfileSegmentKind::cell;
+    return piece.kind != ProfileSegmentKind::parabolic;
 }
 
 bool accelerates(const ProfileSegment& piece) {

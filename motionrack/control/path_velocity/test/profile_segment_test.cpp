@@ -30,7 +30,7 @@ void expect_motion_forward(const ProfileSegment& cell) {
 /// velocity2 falls to a fiftieth within 1.42 of the phase of an oscillation, whose position comes back after more than
 /// a whole period.
 TEST(ProfileSegment, EndsInTheFirstQuarterOfAnOscillationThatStartsAtItsPeakVelocity) {
-    const ProfileSegment cell = feed_cell(0, 4.69668748e-12, 3.99782223e-16, 0, -35469344.8);
+    const ProfileSegment cell = parabolic_segment(0, 4.69668748e-12, 3.99782223e-16, 0, -35469344.8);
     EXPECT_LT(cell.seconds, 0.5 * pi / std::sqrt(0.5 * 35469344.8));
     expect_motion_forward(cell);
 }
@@ -47,7 +47,7 @@ TEST(ProfileSegment, AdvancesFromBeginToEndWhereTheVelocityRisesAndFalls) {
         if (from > to) std::swap(from, to);
         if (to - from < 1e-3) continue;
         const double square = 0.5 * bend * half * half * (1 - from * from);
-        const ProfileSegment cell = feed_cell(0, half * (to - from), square, -bend * half * from, -bend);
+        const ProfileSegment cell = parabolic_segment(0, half * (to - from), square, -bend * half * from, -bend);
         ASSERT_NEAR(cell.seconds, (std::asin(to) - std::asin(from)) / std::sqrt(0.5 * bend), 1e-6 * cell.seconds)
             << from << " to " << to << " of " << half << " bend " << bend;
         expect_motion_forward(cell);

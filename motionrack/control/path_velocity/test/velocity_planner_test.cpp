@@ -251,7 +251,7 @@ TEST(VelocityPlanner, MakesNoSegmentsOfNothing) {
 }
 
 TEST(ProfileSegment, IsAsLongAsItSaysAndMovesAsItsVelocity2Says) {
-    const ProfileSegment cell = feed_cell(5, 2, 100, 30, 8);
+    const ProfileSegment cell = parabolic_segment(5, 2, 100, 30, 8);
     EXPECT_NEAR(cell.at(0).velocity, 10, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).u, 7, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).velocity, std::sqrt(100 + 60 + 16), 1e-12);
@@ -321,7 +321,7 @@ TEST(VelocityPlannerReplan, IsNotFoundWhereItCannotStopInTime) {
 }
 
 TEST(Cell, ThatDeceleratesAndAcceleratesAgainTakesItsTime) {
-    const ProfileSegment cell = feed_cell(0, 1, 4, -7, 14);  // minimum 2.25 at the middle
+    const ProfileSegment cell = parabolic_segment(0, 1, 4, -7, 14);  // minimum 2.25 at the middle
     EXPECT_NEAR(cell.at(cell.seconds).u, 1, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).velocity, 2, 1e-9);
     EXPECT_GT(cell.seconds, 0.5);
