@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <motionrack/dds/clock.hpp>
-#include <motionrack/dds/pacer.hpp>
+#include <motionrack/dds/frame_pacer.hpp>
 #include <motionrack/dds/publisher.hpp>
 #include <motionrack/dds/subscriber.hpp>
 #include <string>

@@ -3,7 +3,7 @@
 
 #include <atomic>
 #include <functional>
-#include <motionrack/dds/pacer.hpp>
+#include <motionrack/dds/frame_pacer.hpp>
 #include <motionrack/dds/publisher.hpp>
 
 namespace motionrack::dds {

@@ -5,13 +5,14 @@
 //   frames of any other source                 counted, never used, until the owner is silent for `release`
 //   foreign, damaged, malformed samples        counted, reported, never used
 //
-// Reports are events, at most one per second of each kind, with the count so far; events.hpp formats their messages.
+// Reports are events, at most one per second of each kind, with the count so far; event_queue.hpp formats their
+// messages.
 #pragma once
 
 #include <array>
-#include <motionrack/dds/events.hpp>
+#include <motionrack/dds/event_queue.hpp>
 #include <motionrack/dds/sample.hpp>
-#include <motionrack/dds/window.hpp>
+#include <motionrack/dds/sequence_window.hpp>
 #include <span>
 
 namespace motionrack::dds {

@@ -6,7 +6,7 @@
 #include <motionrack/panel/panel.hpp>
 #include <motionrack/panel/panel_context.hpp>
 #include <motionrack/panel/record_loss.hpp>
-#include <motionrack/panel/status_text.hpp>
+#include <motionrack/panel/status_writer.hpp>
 #include <utility>
 
 namespace motionrack::panel {

@@ -3,7 +3,7 @@
 #include <array>
 #include <motionrack/panel/card_view.hpp>
 #include <motionrack/panel/panel_context.hpp>
-#include <motionrack/panel/status_text.hpp>
+#include <motionrack/panel/status_writer.hpp>
 #include <motionrack/rack/bus_access.hpp>
 #include <motionrack/rack/homing.hpp>
 

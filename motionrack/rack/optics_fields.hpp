@@ -4,7 +4,7 @@
 #include <array>
 #include <motionrack/rack/toml_reader.hpp>
 #include <motionrack/sim/blocks/scan_lens.hpp>
-#include <motionrack/sim/parts/galvo.hpp>
+#include <motionrack/sim/parts/galvo_pair.hpp>
 #include <motionrack/sim/parts/laser_gate.hpp>
 
 namespace motionrack::rack {

@@ -9,7 +9,7 @@
 #include <motionrack/rack/raised_flag.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/toml_reader.hpp>
-#include <motionrack/trace/vcd.hpp>
+#include <motionrack/trace/vcd_writer.hpp>
 
 namespace motionrack::rack {
 

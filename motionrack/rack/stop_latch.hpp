@@ -18,7 +18,7 @@
 #include <cstdint>
 #include <motionrack/base/result.hpp>
 #include <motionrack/control/limits.hpp>
-#include <motionrack/rack/following.hpp>
+#include <motionrack/rack/following_watch.hpp>
 #include <motionrack/rack/ramp_watch.hpp>
 #include <motionrack/rack/safety_contacts.hpp>
 #include <motionrack/rack/stop_source.hpp>

@@ -13,7 +13,7 @@ enum class StopSource : std::uint8_t {
     drive_alarm,     ///< alarm of an axis' drive, at its card's input
     limit_switch,    ///< limit switch of an axis at standstill or moving towards it
     watchdog,        ///< reset of a card whose program hung
-    following_error  ///< following error above the limit: see following.hpp
+    following_error  ///< following error above the limit: see following_watch.hpp
 };
 
 inline constexpr std::array<StopSource, 6> stop_sources = {StopSource::emergency_stop, StopSource::stop_command,

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <motionrack/rack/wave_sink.hpp>
-#include <motionrack/trace/csv.hpp>
+#include <motionrack/trace/csv_writer.hpp>
 #include <motionrack/trace/recording.hpp>
-#include <motionrack/trace/vcd.hpp>
+#include <motionrack/trace/vcd_writer.hpp>
 
 namespace motionrack::rack {
 

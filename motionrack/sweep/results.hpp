@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <motionrack/sweep/sweep.hpp>
-#include <motionrack/trace/csv.hpp>
+#include <motionrack/trace/csv_writer.hpp>
 #include <string>
 #include <unordered_map>
 #include <vector>

@@ -5,7 +5,7 @@
 #include <pybind11/stl.h>
 
 #include <motionrack/rack/job_report.hpp>
-#include <motionrack/trace/csv.hpp>
+#include <motionrack/trace/csv_writer.hpp>
 #include <motionrack/trace/report.hpp>
 #include <motionrack/trace/svg.hpp>
 #include <python/src/bindings.hpp>

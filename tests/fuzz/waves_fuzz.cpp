@@ -10,8 +10,8 @@
 #include <map>
 #include <motionrack/decode/capture.hpp>
 #include <motionrack/trace/changes.hpp>
-#include <motionrack/trace/csv.hpp>
-#include <motionrack/trace/vcd.hpp>
+#include <motionrack/trace/csv_writer.hpp>
+#include <motionrack/trace/vcd_writer.hpp>
 #include <tests/fuzz/scratch_file.hpp>
 
 namespace {

@@ -3,7 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <motionrack/dds/pacer.hpp>
+#include <motionrack/dds/frame_pacer.hpp>
 #include <motionrack/dds/test/samples.hpp>
 #include <set>
 

@@ -2,7 +2,7 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/result_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/trace/csv.hpp>
+#include <motionrack/trace/csv_writer.hpp>
 
 namespace motionrack::cli {
 

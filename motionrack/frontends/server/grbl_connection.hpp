@@ -22,9 +22,9 @@ struct PortMessage {
 /// One end of a connection to a client: reads while a reader is attached, writes in order, buffers a bounded amount for
 /// slow clients.
 template <class Stream>
-class SenderLine : public std::enable_shared_from_this<SenderLine<Stream>> {
+class GrblConnection : public std::enable_shared_from_this<GrblConnection<Stream>> {
   public:
-    SenderLine(Stream stream, std::size_t max_waiting) : stream_(std::move(stream)), max_waiting_(max_waiting) {}
+    GrblConnection(Stream stream, std::size_t max_waiting) : stream_(std::move(stream)), max_waiting_(max_waiting) {}
 
     bool awaits_greeting = false;  ///< discards output before the banner
 

@@ -27,8 +27,8 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-using TcpLine = SenderLine<tcp::socket>;
-using TerminalLine = SenderLine<asio::posix::stream_descriptor>;
+using TcpLine = GrblConnection<tcp::socket>;
+using TerminalLine = GrblConnection<asio::posix::stream_descriptor>;
 
 /// A client connected by TCP.
 struct Visitor {

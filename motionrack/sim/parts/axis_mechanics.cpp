@@ -42,7 +42,7 @@ AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const
                 LimitSwitch(settings.limit_plus, axle_, state_.switches[1]),
                 LimitSwitch(settings.home, axle_, state_.switches[2])},
       faces_{MechanicsPosition(*this, rotor_face), MechanicsPosition(*this, encoder_face)},
-      maker_(std::make_unique<EdgeMaker>(state_.last_edge)) {
+      edge_generator_(std::make_unique<EdgeGenerator>(state_.last_edge)) {
     id_ = kernel_.add(*this, sim::Phase::parts, name);
     for (std::size_t i = 0; i < switches_.size(); ++i)
         if (switches_[i].present())
@@ -170,7 +170,7 @@ void AxisMechanics::change_motor(Instant now, Change change) {
     const bool jumped = rotor != rotor_before;
     report_change(before, rotor_before, rotor);
     if (jumped && (edge_listeners_[rotor_face] || edge_listeners_[encoder_face])) {
-        maker_->jump(encoder_, edge_listeners_, now, state_.edges_until, rotor);
+        edge_generator_->jump(encoder_, edge_listeners_, now, state_.edges_until, rotor);
         state_.edges_until = rotor;
     }
     check(now);
@@ -335,7 +335,7 @@ bool AxisMechanics::encoder_fault(std::string_view name, double value, Instant n
     const std::int64_t before = encoder_.count(rotor);
     encoder_.set_fault(value != 0 ? fault : LineFault::none, rotor);
     if (edge_listeners_[encoder_face])
-        maker_->count_jump(*edge_listeners_[encoder_face], now, before, encoder_.count(rotor));
+        edge_generator_->count_jump(*edge_listeners_[encoder_face], now, before, encoder_.count(rotor));
     for (int i = 0; i < listeners_[encoder_face].size(); ++i) {
         Watch& w = state_.watches[encoder_face][i];
         w.rotor = encoder_.rotor_range(w.counts, rotor);

@@ -182,7 +182,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     bool encoder_fault(std::string_view name, double value, Instant now);
     bool switch_fault(int i, std::string_view name, double value);
 
-    class EdgeMaker;
+    class EdgeGenerator;
 
     sim::Kernel& kernel_;
     AxisMechanicsSettings settings_;
@@ -200,7 +200,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     std::array<sim::Listeners, face_count> listeners_;
     std::array<sim::EdgeListener*, face_count> edge_listeners_{};
     sim::EdgeListener* pulse_edges_ = nullptr;
-    std::unique_ptr<EdgeMaker> maker_;
+    std::unique_ptr<EdgeGenerator> edge_generator_;
     bool checking_ = false;  // within check(): defers aim() to its end
 };
 

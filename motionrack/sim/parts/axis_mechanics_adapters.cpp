@@ -82,7 +82,7 @@ void AxisMechanics::edges(const sim::EdgeBatch& batch) {
     const std::int64_t first =
         motor_.in_step() ? batch.first_count - state_.motor.lost : state_.edges_until + batch.step;
     state_.edges_until = first + batch.step * (size - 1);
-    maker_->pass(encoder_, edge_listeners_, batch, first, static_cast<std::uint32_t>(size));
+    edge_generator_->pass(encoder_, edge_listeners_, batch, first, static_cast<std::uint32_t>(size));
 }
 
 }  // namespace motionrack::parts

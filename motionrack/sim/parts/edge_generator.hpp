@@ -10,12 +10,12 @@
 
 namespace motionrack::parts {
 
-class AxisMechanics::EdgeMaker {
+class AxisMechanics::EdgeGenerator {
   public:
     using Listeners = std::array<sim::EdgeListener*, face_count>;
 
     /// `last`: instant of the last delivered edge, part of the machine's state.
-    explicit EdgeMaker(Instant& last) : last_(last) {}
+    explicit EdgeGenerator(Instant& last) : last_(last) {}
 
     /// Delivers the first `size` edges of `batch` as rotor edges; the count after the first is `first`.
     void pass(const Encoder& encoder, const Listeners& listeners, const sim::EdgeBatch& batch, std::int64_t first,

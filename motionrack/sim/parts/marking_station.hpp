@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <motionrack/sim/parts/conveyor.hpp>
-#include <motionrack/sim/parts/galvo.hpp>
+#include <motionrack/sim/parts/galvo_pair.hpp>
 #include <motionrack/sim/parts/laser_gate.hpp>
 #include <motionrack/sim/parts/workpiece.hpp>
 #include <optional>

@@ -4,7 +4,7 @@
 
 #include <motionrack/trace/diff.hpp>
 #include <motionrack/trace/report_csv.hpp>
-#include <motionrack/trace/vcd.hpp>
+#include <motionrack/trace/vcd_writer.hpp>
 
 #include "recorded.hpp"
 #include "scratch.hpp"

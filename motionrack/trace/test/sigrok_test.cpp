@@ -8,7 +8,7 @@
 
 #include <array>
 #include <cstdio>
-#include <motionrack/trace/vcd.hpp>
+#include <motionrack/trace/vcd_writer.hpp>
 #include <vector>
 
 #include "scratch.hpp"

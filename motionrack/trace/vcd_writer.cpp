@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <motionrack/trace/vcd.hpp>
+#include <motionrack/trace/vcd_writer.hpp>
 #include <utility>
 
 namespace motionrack::trace {

@@ -1,7 +1,7 @@
 // Messages of events, and their queue.
 #include <fmt/format.h>
 
-#include <motionrack/dds/events.hpp>
+#include <motionrack/dds/event_queue.hpp>
 
 namespace motionrack::dds {
 

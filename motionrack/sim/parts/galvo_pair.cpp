@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <motionrack/base/trig.hpp>
-#include <motionrack/sim/parts/galvo.hpp>
+#include <motionrack/sim/parts/galvo_pair.hpp>
 
 namespace motionrack::parts {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <motionrack/operate/clock_pacer.hpp>
 #include <motionrack/panel/panel_context.hpp>
-#include <motionrack/panel/status_text.hpp>
+#include <motionrack/panel/status_writer.hpp>
 #include <motionrack/rack/card_types.hpp>
 #include <utility>
 

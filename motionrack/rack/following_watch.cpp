@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/rack/card_types.hpp>
-#include <motionrack/rack/following.hpp>
+#include <motionrack/rack/following_watch.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <utility>
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 #include <limits>
-#include <motionrack/trace/csv.hpp>
+#include <motionrack/trace/csv_writer.hpp>
 
 #include "scratch.hpp"
 

@@ -1,6 +1,6 @@
 // Due times.
 #include <algorithm>
-#include <motionrack/dds/pacer.hpp>
+#include <motionrack/dds/frame_pacer.hpp>
 
 namespace motionrack::dds {
 

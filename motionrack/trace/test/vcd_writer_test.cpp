@@ -4,7 +4,7 @@
 
 #include <filesystem>
 #include <limits>
-#include <motionrack/trace/vcd.hpp>
+#include <motionrack/trace/vcd_writer.hpp>
 #include <sstream>
 #include <vector>
 

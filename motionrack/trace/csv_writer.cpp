@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <motionrack/trace/csv.hpp>
+#include <motionrack/trace/csv_writer.hpp>
 #include <motionrack/trace/report_parts.hpp>
 #include <optional>
 #include <utility>
