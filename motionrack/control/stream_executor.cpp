@@ -139,12 +139,13 @@ void StreamExecutor::add_piece() {
 // ---- operator requests
 
 void StreamExecutor::hold() {
-    if (request_ == Request::stop || state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) return;
+    if (request_ == StopRequest::stop || state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)
+        return;
     if (!path_begun_ && !has_work()) {
         state_ = ExecutionState::feed_hold;
         return;
     }
-    request_ = Request::hold;
+    request_ = StopRequest::hold;
     stop_flag_ = !interpolator_ && !last_probe_.runs;
 }
 
@@ -160,7 +161,7 @@ void StreamExecutor::stop() {
         if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) state_ = ExecutionState::idle;
         return;
     }
-    request_ = Request::stop;
+    request_ = StopRequest::stop;
     stop_flag_ = !interpolator_ || last_probe_.runs;
 }
 
@@ -173,7 +174,7 @@ void StreamExecutor::set_overrides(double feed, double rapid) {
 
 Result<ExecutionState> StreamExecutor::drive(bool more_may_come) {
     if (interpolator_) return drive_trajectory(more_may_come);
-    const bool brakes = request_ != Request::none;
+    const bool brakes = request_ != StopRequest::none;
     if (brakes && !path_begun_) return enter_standstill();
     if (!brakes && (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)) return state_;
     pull_steps();
@@ -260,20 +261,20 @@ Result<ExecutionState> StreamExecutor::finish_path() {
     path_begun_ = false;
     if (interpolator_) pop_driven(interpolator_->generator().first_pending_move());
     while (handed_ > 0) pop();
-    if (single_block_ && has_work() && request_ == Request::none) return state_ = ExecutionState::paused;
-    if (interpolator_ && request_ == Request::hold && !has_work()) interpolator_->generator().resume();
+    if (single_block_ && has_work() && request_ == StopRequest::none) return state_ = ExecutionState::paused;
+    if (interpolator_ && request_ == StopRequest::hold && !has_work()) interpolator_->generator().resume();
     return enter_standstill();
 }
 
 /// Handles standstill at the end of the submitted path.
 Result<ExecutionState> StreamExecutor::enter_standstill() {
-    const Request request = std::exchange(request_, Request::none);
+    const StopRequest request = std::exchange(request_, StopRequest::none);
     stop_flag_ = false;
-    if (request == Request::stop) {
+    if (request == StopRequest::stop) {
         forget();
         return state_;
     }
-    if (request == Request::hold && has_work()) return state_ = ExecutionState::feed_hold;
+    if (request == StopRequest::hold && has_work()) return state_ = ExecutionState::feed_hold;
     while (!entries_.empty() && !entries_.front().is_move()) {
         if (entries_.front().is_probe()) return probe();
         const bool pause = entries_.front().step.kind == CanonCallKind::pause;
@@ -284,8 +285,8 @@ Result<ExecutionState> StreamExecutor::enter_standstill() {
 }
 
 Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
-    const bool held = !interpolator_ && error.kind == ErrorKind::stopped && request_ == Request::hold;
-    request_ = Request::none;
+    const bool held = !interpolator_ && error.kind == ErrorKind::stopped && request_ == StopRequest::hold;
+    request_ = StopRequest::none;
     stop_flag_ = false;
     path_begun_ = false;
     if (!held) {
@@ -300,7 +301,7 @@ Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
 void StreamExecutor::forget() {
     // Reading a card's position may take time, in which lines and a hold or stop come: they are discarded, too.
     const Point position = axes_->commanded_position();
-    request_ = Request::none;
+    request_ = StopRequest::none;
     stop_flag_ = false;
     entries_.clear();
     cutting_.reset();

@@ -73,7 +73,7 @@ class StreamExecutor {
     /// Returns true if line() accepts another line. After a probing line only when its move has ended, because the next
     /// lines start where it stopped.
     bool has_room() const {
-        return entries_.size() < settings_.max_entries && !unpulled_ && !probe_waits_ && request_ != Request::stop;
+        return entries_.size() < settings_.max_entries && !unpulled_ && !probe_waits_ && request_ != StopRequest::stop;
     }
     /// Checks a line and queues its moves. Requires has_room(). On an error the line has no effect.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number);
@@ -138,7 +138,7 @@ class StreamExecutor {
     void on_move(std::function<void(const Move& move, const Point& start)> call) { on_move_ = std::move(call); }
 
   private:
-    enum class Request : std::uint8_t { none, hold, stop };
+    enum class StopRequest : std::uint8_t { none, hold, stop };
     /// A slice of a move, or an event.
     struct QueueEntry {
         gcode::CanonCall step;
@@ -219,7 +219,7 @@ class StreamExecutor {
     bool probe_waits_ = false;  ///< entries_ has a probing move, followed only by events
     ProbeReport last_probe_;
     double feed_ = 1, rapid_ = 1, feed_wanted_ = 1, rapid_wanted_ = 1;
-    Request request_ = Request::none;
+    StopRequest request_ = StopRequest::none;
     ExecutionState state_ = ExecutionState::idle;
     std::atomic<bool> stop_flag_{false};
     std::function<void(const gcode::CanonCall&)> on_event_;

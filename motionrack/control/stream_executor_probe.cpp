@@ -20,7 +20,7 @@ Result<ExecutionState> StreamExecutor::probe() {
     axes_->take_move_starts();
     const Point position = axes_->commanded_position();
     if (!outcome) {
-        if (request_ != Request::stop) ++last_probe_.count;
+        if (request_ != StopRequest::stop) ++last_probe_.count;
         return interrupted(outcome.error());
     }
     last_probe_ = {last_probe_.count + 1, step.line, step.probe, true, false, *outcome};

@@ -22,7 +22,7 @@ TrajectoryInterpolator StreamExecutor::make_interpolator(const Point& position) 
 }
 
 Result<ExecutionState> StreamExecutor::drive_trajectory(bool more_may_come) {
-    if (request_ != Request::none) {
+    if (request_ != StopRequest::none) {
         if (!path_begun_) return enter_standstill();
         interpolator_->generator().hold();
     } else if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) {
@@ -43,7 +43,7 @@ Result<ExecutionState> StreamExecutor::drive_trajectory(bool more_may_come) {
         trajectory_ends_ = true;
     }
     if (PlannedMove planned; interpolator_->pull(planned, true)) return submit(planned);
-    const bool more_follows = !trajectory_ends_ && !rest_follows && request_ == Request::none;
+    const bool more_follows = !trajectory_ends_ && !rest_follows && request_ == StopRequest::none;
     if (path_begun_) {
         // The interpolator is stationary: at the end of the known path, or on hold.
         Result<ExecutionState> finished = finish_path();
@@ -56,7 +56,7 @@ Result<ExecutionState> StreamExecutor::drive_trajectory(bool more_may_come) {
 
 /// Returns true while a single first move waits for the line after it, so that it need not end at standstill.
 bool StreamExecutor::trajectory_may_wait(bool rest_follows) const {
-    return !rest_follows && !path_begun_ && request_ == Request::none && planned_ == 1 && !trajectory_ends_;
+    return !rest_follows && !path_begun_ && request_ == StopRequest::none && planned_ == 1 && !trajectory_ends_;
 }
 
 Result<void> StreamExecutor::fill_interpolator() {

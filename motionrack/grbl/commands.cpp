@@ -73,7 +73,7 @@ int GrblSession::command_at_rest(const std::string& text) {
         case 'S':
             if (text != "$SLP") return error_unknown;
             answer(error_none);
-            send_message("Sleeping");
+            push("Sleeping");
             asleep_ = true;
             return answer_later;
         case 'I':
@@ -108,7 +108,7 @@ int GrblSession::store(std::string_view text) {
         change_setting(machine_.rack().config(), own_, settings_.axes, static_cast<int>(number), value);
     if (changed.note.empty()) return changed.error;
     if (changed.error != error_none)
-        send_message(changed.note);
+        push(changed.note);
     else if (settings_.on_setting)
         settings_.on_setting(changed.note);
     return changed.error;
@@ -123,8 +123,7 @@ int GrblSession::store_startup_line(std::string_view text) {
     control::gcode::Interpreter trial = interpreter();
     if (const auto read = trial.line(text, 0); !read) return static_cast<int>(read.error().status);
     if (starts_something(trial)) {
-        send_message(
-            "Not stored: a startup line runs at each reset, and a reset starts no motion, spindle, coolant or output");
+        push("Not stored: a startup line runs at each reset, and a reset starts no motion, spindle, coolant or output");
         return error_unsupported;
     }
     startup_lines_[number == 0 ? 0 : 1] = text;
@@ -143,7 +142,7 @@ int GrblSession::restore(const std::string& text) {
         build_text_.clear();
     }
     if (settings_.on_setting) settings_.on_setting(fmt::format("{}: settings of the Grbl port are restored", text));
-    send_message("Restoring defaults");
+    push("Restoring defaults");
     answer(error_none);
     reset();
     return answer_later;
@@ -151,7 +150,7 @@ int GrblSession::restore(const std::string& text) {
 
 int GrblSession::check_mode() {
     if (check_) {
-        send_message("Disabled");
+        push("Disabled");
         answer(error_none);
         reset();
         return answer_later;
@@ -159,7 +158,7 @@ int GrblSession::check_mode() {
     if (state() != State::idle) return error_not_idle;
     check_ = machine_.stream().interpreter();
     if (check_->modes().motion == control::gcode::no_motion && !was_g80_) (void)check_->line("G0", 0);
-    send_message("Enabled");
+    push("Enabled");
     return error_none;
 }
 
@@ -187,7 +186,7 @@ int GrblSession::home() {
     if (!control()) return error_locked;
     (void)machine_.enable(true);
     if (const Result<void> begun = machine_.home(""); !begun) {
-        send_message(begun.error().message);
+        push(begun.error().message);
         return error_locked;
     }
     stopped_ = false;
@@ -209,12 +208,12 @@ bool GrblSession::finish_homing() {
         return true;
     }
     if (ended.error().kind == ErrorKind::refused) {
-        send_message(ended.error().message);
+        push(ended.error().message);
         finish_answer(error_no_homing);
         return true;
     }
     alarm(number_of_homing(), false);
-    send_message(ended.error().message);
+    push(ended.error().message);
     reset();
     return false;
 }
@@ -237,7 +236,7 @@ int GrblSession::jog(const std::string& text) {
     if (!control()) return error_locked;
     energise();
     if (const Result<void> begun = machine_.jog_to(line.target, line.feed); !begun) {
-        send_message(begun.error().message);
+        push(begun.error().message);
         return error_locked;
     }
     watch_machine();

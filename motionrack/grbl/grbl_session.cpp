@@ -50,7 +50,7 @@ void GrblSession::observe(std::string_view bytes) {
     for (const char c : bytes) {
         const std::optional<Realtime> what = realtime_of(static_cast<std::uint8_t>(c));
         if (what == Realtime::reset && !settings_.onlookers_reset)
-            send_message("The reset of an observer was not executed. ! holds the machine");
+            push("The reset of an observer was not executed. ! holds the machine");
         else if (what == Realtime::status || what == Realtime::reset || what == Realtime::feed_hold ||
                  what == Realtime::door || what == Realtime::jog_cancel)
             act(*what);
@@ -140,7 +140,7 @@ int GrblSession::gcode(const std::string& text) {
     if (block.has_g(g_motion)) was_g80_ = block.g[g_motion] == 800;
     const bool ends = block.has_m(m_stop) && block.m[m_stop] >= 2;
     if (check_) {
-        if (ends) send_message("Pgm End");
+        if (ends) push("Pgm End");
         return error_none;
     }
     const bool probes = machine_.stream().probe_pending();
@@ -172,14 +172,14 @@ int GrblSession::refused(const Problem& problem) {
         doing_ = PendingLine{PendingLine::What::leaving_travel};
         return answer_later;
     }
-    if (problem.status == GrblStatus::none && !problem.message.empty()) send_message(problem.message);
+    if (problem.status == GrblStatus::none && !problem.message.empty()) push(problem.message);
     return decimal_of(problem);
 }
 
 bool GrblSession::control() {
     if (!settings_.take_control) return true;
     const Result<void> taken = settings_.take_control();
-    if (!taken) send_message(taken.error().message);
+    if (!taken) push(taken.error().message);
     return taken.has_value();
 }
 
@@ -189,8 +189,7 @@ bool GrblSession::control() {
 void GrblSession::stopped(const operate::StopReport& report) {
     if (resets_) return;
     const bool waits = held_ || door_ || line_ || doing_;
-    if (report.releases && std::exchange(stopped_, false))
-        return send_message(report.text + " The sender may continue");
+    if (report.releases && std::exchange(stopped_, false)) return push(report.text + " The sender may continue");
     if (report.releases && !waits) return;
     never_enabled_ = false;
     lock(report.text);
@@ -210,7 +209,7 @@ void GrblSession::lock(std::string_view why) {
     const bool alarms_later =
         doing_ && (doing_->what == PendingLine::What::homing || doing_->what == PendingLine::What::leaving_travel);
     if (!locked_before && !alarms_later) put(fmt::format("ALARM:{}\r\n", int{alarm_reset}));
-    send_message(why);
+    push(why);
     if (doing_ && !alarms_later) finish_answer(error_locked);
 }
 
@@ -237,7 +236,7 @@ bool GrblSession::finish() {
                 declare_positions();
                 return false;
             }
-            if (!doing_->silent) send_message("Caution: Unlocked");
+            if (!doing_->silent) push("Caution: Unlocked");
             break;
     }
     finish_answer(error_none);
@@ -251,17 +250,17 @@ void GrblSession::finish_answer(int error) {
 void GrblSession::end_program() {
     spindle_override_ = 100;
     machine_.set_overrides(1, 1);
-    if (!doing_->silent) send_message("Pgm End");
+    if (!doing_->silent) push("Pgm End");
 }
 
 void GrblSession::finish_boot() {
     const bool after_reset = std::exchange(boot_, Boot::done) == Boot::reset;
     if (machine_.state() == MachineState::error_stop && !(after_reset && alarm_ && is_stop_ordered(machine_))) {
         critical_ = true;
-        send_message(machine_.status().reason);
+        push(machine_.status().reason);
     }
     if (locked())
-        send_message("'$H'|'$X' to unlock");
+        push("'$H'|'$X' to unlock");
     else if (after_reset)
         startup();
 }
@@ -282,7 +281,7 @@ void GrblSession::answer(int error) {
 }
 
 /// Sends ASCII only, without the characters that end a message.
-void GrblSession::send_message(std::string_view text) {
+void GrblSession::push(std::string_view text) {
     put("[MSG:");
     for (const char c : text) out_ += c >= ' ' && c <= '~' && c != '[' && c != ']' ? c : '?';
     put("]\r\n");
@@ -293,7 +292,7 @@ void GrblSession::alarm(int number, bool needs_reset) {
     put(fmt::format("ALARM:{}\r\n", number));
     if (!needs_reset) return;
     critical_ = true;
-    send_message("Reset to continue");
+    push("Reset to continue");
 }
 
 }  // namespace motionrack::grbl

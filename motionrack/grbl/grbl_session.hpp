@@ -104,7 +104,7 @@ class GrblSession {
     void finish_boot();
     void startup();
     void answer(int error);
-    void send_message(std::string_view text);
+    void push(std::string_view text);
     void put(std::string_view text) { out_ += text; }
     void alarm(int number, bool needs_reset);
     // commands.cpp

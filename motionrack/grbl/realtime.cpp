@@ -123,7 +123,7 @@ void GrblSession::open_door() {
         return reset();
     }
     if (now == State::alarm || now == State::check || now == State::sleep || now == State::door) return;
-    send_message("Check Door");
+    push("Check Door");
     if (now == State::jog) machine_.cancel();
     if (now == State::run) (void)machine_.hold();
     door_ = true;
@@ -163,7 +163,7 @@ void GrblSession::reset(bool is_asked_for) {
         resets_ = false;
     }
     begin_again(true);
-    if (!may) send_message(may.error().message);
+    if (!may) push(may.error().message);
 }
 
 void GrblSession::begin_again(bool after_reset) {
@@ -195,7 +195,7 @@ void GrblSession::watch_machine() {
         alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial)
                                        : alarm_of_stop(machine_),
               true);
-        send_message(machine_.status().reason);
+        push(machine_.status().reason);
     }
 }
 

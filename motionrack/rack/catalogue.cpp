@@ -102,7 +102,7 @@ class Mcx314Card final : public MotionCard {
 
     Result<control::AxisGroup*> path_axes(const RackConfig& config,
                                           const std::optional<control::Point>& position) override {
-        const CounterState counters = position ? CounterState() : read_counters();
+        const CardCounters counters = position ? CardCounters() : read_counters();
         for (auto& one : single_) one.reset();
         axes_.emplace(driver_, axis_map(config), mcx314::HostTimes{access_, latency_});
         axes_->set_probe(probe_channels(config));
@@ -193,13 +193,13 @@ class Mcx314Card final : public MotionCard {
     }
 
     /// Counters of the channels, and whether they are valid positions.
-    struct CounterState {
+    struct CardCounters {
         std::array<std::int64_t, mcx314::channel_count> pulses = {}, counts = {};
         std::array<bool, mcx314::channel_count> position_valid = {};
     };
-    CounterState read_counters() {
+    CardCounters read_counters() {
         // Channels not used singly since the group lost the card are still where it left them.
-        CounterState out = before_singles_;
+        CardCounters out = before_singles_;
         const auto read = [&](std::size_t c, bool valid) {
             out.pulses[c] = driver_.ReadLPS(static_cast<int>(c));
             out.counts[c] = driver_.ReadEPS(static_cast<int>(c));
@@ -211,14 +211,14 @@ class Mcx314Card final : public MotionCard {
         return out;
     }
     /// Restores the counters after the chip's reset, which has cleared those of all channels.
-    Result<void> restore_counters(const CounterState& counters) {
+    Result<void> restore_counters(const CardCounters& counters) {
         for (std::size_t c = 0; c < counters.pulses.size(); ++c) {
             if (counters.pulses[c] != 0) MOTIONRACK_CHECK(driver_.LPS(1u << c, counters.pulses[c]));
             if (counters.counts[c] != 0) MOTIONRACK_CHECK(driver_.EPS(1u << c, counters.counts[c]));
         }
         return {};
     }
-    control::Point position_of(const RackConfig& config, const CounterState& counters) const {
+    control::Point position_of(const RackConfig& config, const CardCounters& counters) const {
         const mcx314::AxisMap map = axis_map(config);
         control::Point out = {};
         for (std::size_t i = 0; i < out.size(); ++i)
@@ -246,7 +246,7 @@ class Mcx314Card final : public MotionCard {
     std::optional<mcx314::ChipAxisGroup> axes_;
     std::array<std::unique_ptr<mcx314::SingleAxis>, 6> single_ = {};
     bool singles_ready_ = false;
-    CounterState before_singles_;  // state when the group lost the card
+    CardCounters before_singles_;  // state when the group lost the card
     std::array<bool, mcx314::channel_count> group_valid_ = {};
 };
 

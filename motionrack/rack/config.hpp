@@ -137,8 +137,7 @@ struct RackServo {
     double time_constant_ms = 10;               ///< time constant of the velocity
     double dead_band_v = 0.005;                 ///< amplifier output is 0 below this voltage, V
     double load_inertia_ratio = 0;              ///< load inertia in units of the motor's own inertia
-    std::optional<double>
-        position_window;  ///< position window that the card holds after a move; absent: no position hold
+    std::optional<double> position_window;      ///< in which the card holds after a move; absent: no position hold
 
     /// Maximum velocity.
     double saturation() const { return saturation_velocity.value_or(10 * velocity_per_volt); }

@@ -255,26 +255,24 @@ class AxisCheck {
         if (!source_.sound({"velocity_per_volt_{u}_s", "saturation_velocity_{u}_s", "current_limit_accel_{u}_s2",
                             "coulomb_friction_{u}_s2", "max_velocity_{u}_s"}))
             return;
-        if (servo.coulomb_friction >= servo.current_limit_accel)
+        const double friction = servo.coulomb_friction, accel = servo.current_limit_accel;
+        if (friction >= accel)
             error("coulomb_friction_{u}_s2", "servo",
                   fmt::format("coulomb_friction_{0}_s2 of axis {1} is {2}, not below current_limit_accel_{0}_s2, which "
                               "is {3}: its motor could never start.",
-                              u, axis_.letter, number_text(servo.coulomb_friction),
-                              number_text(servo.current_limit_accel)));
+                              u, axis_.letter, number_text(friction), number_text(accel)));
         if (const double counts = servo.saturation() * axis_.pulses_per_unit(); counts > 1e6)
             error("velocity_per_volt_{u}_s", "servo",
                   fmt::format("The servo of axis {} reaches {} {}/s, that is {} counts/s; it may be 1000000. Lower "
                               "saturation_velocity_{}_s or encoder_counts_per_rev.",
                               axis_.letter, short_text(servo.saturation()), u, short_text(counts), u));
-        const double min_velocity =
-            servo.coulomb_friction * servo.time_constant_ms * 1e-3 + servo.dead_band_v * servo.velocity_per_volt;
-        if (axis_.max_velocity_step <= min_velocity)
+        const double threshold = friction * servo.time_constant_ms * 1e-3 + servo.dead_band_v * servo.velocity_per_volt;
+        if (axis_.max_velocity_step <= threshold)
             warn("max_velocity_step_{u}_s", {},
                  fmt::format("max_velocity_step_{0}_s of axis {1} is {2}, but friction and dead band use {3} {0}/s: "
                              "it would stop short of its target.",
-                             u, axis_.letter, number_text(axis_.max_velocity_step), short_text(min_velocity)));
-        if (const double max_accel = servo.current_limit_accel / (1 + servo.load_inertia_ratio);
-            axis_.max_accel > max_accel)
+                             u, axis_.letter, number_text(axis_.max_velocity_step), short_text(threshold)));
+        if (const double max_accel = accel / (1 + servo.load_inertia_ratio); axis_.max_accel > max_accel)
             warn("max_accel_{u}_s2", {},
                  fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with "
                              "its load: it would overshoot its target.",
@@ -282,9 +280,8 @@ class AxisCheck {
         const double reach = std::min(servo.saturation(), (10 - servo.dead_band_v) * servo.velocity_per_volt);
         if (axis_.max_velocity > reach * rounding)
             warn("max_velocity_{u}_s", {},
-                 fmt::format(
-                     "max_velocity_{0}_s of axis {1} is {2}, above the {3} {0}/s that its servo reaches at 10 V.", u,
-                     axis_.letter, number_text(axis_.max_velocity), short_text(reach)));
+                 fmt::format("max_velocity_{0}_s of axis {1} is {2}, above the {3} {0}/s of its servo at 10 V.", u,
+                             axis_.letter, number_text(axis_.max_velocity), short_text(reach)));
     }
 
     void too_fast_for_motor(std::string_view key, double velocity, const char* limit_key, double limit) {

@@ -19,7 +19,7 @@ class Careless {
   public:
     Careless(Bench& bench, std::function<std::string(int)> line) : bench_(bench), line_(std::move(line)) {}
     /// Sends these bytes and returns the output within `seconds`.
-    std::string send_message(const std::string& bytes, double seconds) {
+    std::string push(const std::string& bytes, double seconds) {
         sent += static_cast<int>(std::count(bytes.begin(), bytes.end(), '\n'));
         std::string heard = bench_.ask(bytes, seconds);
         for (int n = answers(heard); n > 0; --n, ++answered) {
@@ -40,7 +40,7 @@ class Careless {
                 bytes += next;
                 ++lines_;
             }
-            out += send_message(bytes, 0.01);
+            out += push(bytes, 0.01);
         }
         return out;
     }
@@ -142,7 +142,7 @@ class SenderStop : public testing::TestWithParam<std::tuple<std::size_t, std::si
     void try_once(double after, const Source& source, const Doing& doing) {
         Bench b(doing.config());
         Careless sender(b, doing.line);
-        sender.send_message(doing.before, 0.1);
+        sender.push(doing.before, 0.1);
         doing.begin(*b.machine);
         sender.stream(after);
         source.stop(*b.machine);
@@ -151,7 +151,7 @@ class SenderStop : public testing::TestWithParam<std::tuple<std::size_t, std::si
         ASSERT_THAT(heard, AllOf(HasSubstr(alarm), HasSubstr(source.reported)));
         ASSERT_TRUE(operate::idle(b.machine->state())) << operate::name_of(b.machine->state());
         const std::vector<operate::AxisStatus> stood = b.machine->status().axes;
-        const std::string later = sender.stream(1) + sender.send_message("~G1X2F600\n", 0.2);
+        const std::string later = sender.stream(1) + sender.push("~G1X2F600\n", 0.2);
         EXPECT_THAT(later, Not(HasSubstr("ok\r\n")));
         EXPECT_THAT(later, AnyOf(HasSubstr("error:9\r\n"), HasSubstr("error:8\r\n")));
         // An aborted homing discards the waiting lines.
@@ -190,7 +190,7 @@ class SenderAtTheButton : public testing::TestWithParam<std::size_t> {
     static void try_once(double after, const Doing& doing) {
         Bench b(doing.config());
         Careless sender(b, doing.line);
-        sender.send_message(doing.before, 0.1);
+        sender.push(doing.before, 0.1);
         doing.begin(*b.machine);
         sender.stream(after);
         ASSERT_TRUE(b.machine->wires().force("estop", 0));
@@ -198,7 +198,7 @@ class SenderAtTheButton : public testing::TestWithParam<std::size_t> {
         ASSERT_EQ(b.machine->state(), operate::MachineState::error_stop) << operate::name_of(b.machine->state());
         const std::vector<operate::AxisStatus> stood = b.machine->status().axes;
         ASSERT_TRUE(b.machine->wires().force("estop", 1));
-        const std::string later = sender.stream(0.5) + sender.send_message("$X\n~G1X2F600\n", 0.5);
+        const std::string later = sender.stream(0.5) + sender.push("$X\n~G1X2F600\n", 0.5);
         EXPECT_THAT(later, Not(HasSubstr("ok\r\n")));
         for (std::size_t i = 0; i < stood.size(); ++i)
             EXPECT_EQ(b.machine->status().axes[i].pulses, stood[i].pulses) << "a line was driven after the stop";

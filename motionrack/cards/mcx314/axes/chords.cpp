@@ -99,12 +99,10 @@ void Segmenter::emit_chords(const PendingMove& work, const MoveSpeeds& speeds) {
         // V units squared; less the steps of whole units and the register accesses before the new speed takes effect.
         const double slope = rules::rate_unit * after.acceleration * share,
                      spent = latency_seconds_ + speed_carry / after.acceleration / rules::clock_hz * 2;
-        const double braking_length =
-            std::max(0.0, (static_cast<double>(pulses) - 2) / pulses_per_v_ - spent * chords[i - 1].v);
+        const double free = std::max(0.0, (static_cast<double>(pulses) - 2) / pulses_per_v_ - spent * chords[i - 1].v);
         // It begins with the speed of the previous chord.
         const double max = max_on(delta, work.constant_vector).speed;
-        chords[i - 1].v =
-            std::min({chords[i - 1].v, max, std::floor(std::sqrt(squared(after.v) + 2 * slope * braking_length))});
+        chords[i - 1].v = std::min({chords[i - 1].v, max, std::floor(std::sqrt(squared(after.v) + 2 * slope * free))});
     }
     for (const Chord& chord : chords)
         emit_line(work, chord.at, std::max(static_cast<std::int32_t>(chord.v), std::min(speeds.exit, speeds.top)),

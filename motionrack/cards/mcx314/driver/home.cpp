@@ -69,7 +69,7 @@ ChipHomingEdge Home::edge_here(const PollData& poll, Instant now) {
             index || state_->until == HomingStopInput::on,
             poll.lp,
             driver_.ReadEPS(axis_),
-            exact ? 0 : rules::magnitude(pulses_between(last_lp_, poll.lp)) + 1,
+            exact ? 0 : rules::magnitude(pulse_delta(last_lp_, poll.lp)) + 1,
             hertz(exact ? speed() : std::max(poll.cv, last_cv_)),
             now};
 }
@@ -307,7 +307,7 @@ void Home::drive_reached(const PollData& poll, Instant now) {
 
 /// Compares the edges of the approach with those of the previous approach.
 bool Home::is_edge_of_switch(const ChipHomingEdge& edge) {
-    const auto up = static_cast<double>(pulses_between(report_.stays.front().from_lp, edge.lp));
+    const auto up = static_cast<double>(pulse_delta(report_.stays.front().from_lp, edge.lp));
     const double travel = settings_.negative ? -up : up, within = static_cast<double>(edge.within);
     if (state_->until == HomingStopInput::off) edges_.released(travel, within);
     if (state_->until == HomingStopInput::on && state_->search_direction == SearchDirection::towards)
@@ -360,7 +360,7 @@ void Home::finish(const PollData& poll, Instant now) {
 
 /// Pulses made by the present drive.
 std::int64_t Home::distance(const PollData& poll) const {
-    return rules::magnitude(pulses_between(report_.stays.back().from_lp, poll.lp));
+    return rules::magnitude(pulse_delta(report_.stays.back().from_lp, poll.lp));
 }
 
 /// Pulses from SV to V plus a hundredth of a second at V, so that a poll falls into it.

@@ -28,7 +28,7 @@ struct Bound {
 // ---- the report
 
 std::int64_t HomeReport::relative(std::int32_t lp) const {
-    return pulses_between(zero_lp, lp) + home_position;
+    return pulse_delta(zero_lp, lp) + home_position;
 }
 
 std::optional<std::int64_t> HomeReport::switch_to_index() const {

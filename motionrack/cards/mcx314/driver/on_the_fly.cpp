@@ -68,8 +68,7 @@ Result<void> Driver::change_pulses(int axis, std::int64_t pulses, Duration margi
             "{} drives in {} direction, and the chip cannot reverse; stop it and start in the other direction", name,
             own.negative ? "-" : "+"));
     const std::int64_t v = ReadCV(axis);
-    const std::int64_t made = rules::magnitude(pulses_between(own.from, ReadLPS(axis))),
-                       wanted = rules::magnitude(pulses);
+    const std::int64_t made = rules::magnitude(pulse_delta(own.from, ReadLPS(axis))), wanted = rules::magnitude(pulses);
     const bool manual = field("WR3", "MANLD").test(own.mode[2]);
     const std::int64_t before = written(axis, cmd::P).value_or(0), point = written(axis, cmd::DP).value_or(0);
     const std::int64_t fall =

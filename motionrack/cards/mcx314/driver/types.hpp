@@ -37,7 +37,7 @@ constexpr ChannelList channels_of(unsigned axes) {
 }
 
 /// Pulses or counts between two readings of a 32-bit counter; counters wrap.
-constexpr std::int64_t pulses_between(std::int32_t from, std::int32_t to) {
+constexpr std::int64_t pulse_delta(std::int32_t from, std::int32_t to) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
 }
 

@@ -104,8 +104,7 @@ std::array<double, 4> Driver::shares(const Piece& piece) {
     // it steps every time.
     const auto h = static_cast<std::size_t>(list.channel[0]), v = static_cast<std::size_t>(list.channel[1]);
     auto from_centre = [&](std::size_t i) {
-        const std::int64_t moved =
-            pulses_between(static_cast<std::int32_t>(piece.from[i]), ReadLPS(static_cast<int>(i)));
+        const std::int64_t moved = pulse_delta(static_cast<std::int32_t>(piece.from[i]), ReadLPS(static_cast<int>(i)));
         return static_cast<double>(moved - piece.centre[i]);
     };
     const double x = from_centre(h), y = from_centre(v);

@@ -25,7 +25,7 @@ const ChipHomingStateVisit& stay_in(const HomeReport& report, std::string_view s
 /// Pulses/s of the chip's clock, in a state of constant speed.
 double speed_in(const HomeReport& report, std::string_view state) {
     const ChipHomingStateVisit& stay = stay_in(report, state);
-    return std::fabs(static_cast<double>(pulses_between(stay.from_lp, stay.to_lp))) / to_seconds(stay.took);
+    return std::fabs(static_cast<double>(pulse_delta(stay.from_lp, stay.to_lp))) / to_seconds(stay.took);
 }
 
 HomeReport homed_by(HomeRig& rig, decltype(&HomeType1) function, unsigned wr1 = origin_in0) {
