@@ -24,7 +24,7 @@ export async function driveX(tab) {
   await call(tab, 'TCurve_F', { m_Pulse: 500 });
   await answered(tab, 'X drives.');
   await call(tab, 'wait');
-  await answered(tab, 'X stands as commanded.');
+  await answered(tab, 'X is at standstill, as commanded.');
   await call(tab, 'ReadLPS');
   await answered(tab, '500 pulses');
 }

@@ -75,7 +75,7 @@ struct JournalSettings {
 
 class Journal {
   public:
-    /// Called on the writing thread.
+    /// Callback for a written entry, on the writing thread.
     using Done = std::function<void(const Result<std::int64_t>& number)>;
 
     /// Starts a run. Errors: io if the file cannot be created, is not a journal, or belongs to a running program; it is

@@ -33,7 +33,7 @@ void check_drawings(const TomlNode& root, const MarkingJob& job, rack::Problems&
         const int sources = (d.svg ? 1 : 0) + (d.gcode ? 1 : 0) + (d.text ? 1 : 0);
         if (sources != 1)
             problems.error(table.key_location,
-                           fmt::format("A drawing needs one of svg, gcode and text; there are {}.", sources));
+                           fmt::format("A drawing needs one of svg, gcode and text, but has {}.", sources));
         if (!d.text) continue;
         const PartsSettings parts = job.parts.value_or(PartsSettings{});
         for (const std::int64_t number : {parts.number(0), parts.number(parts.size() - 1)})

@@ -54,8 +54,8 @@ class InputModel final : public rtc5::Inputs {
 
 class MarkingHost final : rtc5::ListListener {
   public:
-    /// Loads everything; the belt time is 0. `job` and `prepared` must outlive it. Errors: as list_of; refused if a
-    /// list is too long or a part never arrives.
+    /// Loads everything; the belt time is 0. `job` and `prepared` must outlive the object. Errors: as list_of; refused
+    /// if a list is too long or a part never arrives.
     static Result<std::unique_ptr<MarkingHost>> make(const MarkingJob& job, const Prepared& prepared,
                                                      const ConveyorTracking& following);
 

@@ -31,7 +31,7 @@ class OverflowLog {
   public:
     static constexpr std::size_t max_places = 10'000;  ///< further ones are counted but not stored
 
-    /// `track` must outlive it.
+    /// `track` must outlive the object.
     OverflowLog(double bits_per_mm, const parts::Conveyor& track) : k_(bits_per_mm), track_(track) {}
     void block(const rtc5::Samples& samples);
     /// Ends the log; no samples follow after `tick`.

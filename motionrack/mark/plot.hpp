@@ -19,7 +19,7 @@ std::vector<StrokePoint> nodes_of(std::span<const parts::MarkedPoint> points);
 
 /// Returns the bounding box of both.
 Box joined(const Box& a, const Box& b);
-Box box_of(std::span<const StrokePoint> nodes);  ///< requires at least one
+Box box_of(std::span<const StrokePoint> nodes);  ///< requires at least one node
 
 class Plot {
   public:

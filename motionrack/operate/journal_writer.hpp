@@ -16,7 +16,7 @@
 
 namespace motionrack::operate {
 
-/// Only the motion thread uses it; the journal must outlive it.
+/// Only the motion thread uses it; the journal must outlive the object.
 class JournalWriter {
   public:
     /// Also called with every entry. `data`: JSON.

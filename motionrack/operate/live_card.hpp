@@ -54,7 +54,7 @@ struct LiveStop {
 /// Only the motion thread uses it.
 class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
   public:
-    /// Opens the port and reads the registers; the rack must outlive it. Errors: as live::open_card; io if the
+    /// Opens the port and reads the registers; the rack must outlive the object. Errors: as live::open_card; io if the
     /// computer refuses an access or no card answers.
     static Result<std::unique_ptr<LiveCard>> open(const LivePlace& place, rack::Rack& rack);
 

@@ -65,7 +65,7 @@ Result<json> slopes_now(rack::Rack& rack, const std::string& name) {
 
 Result<json> frames_now(operate::Machine& machine) {
     const rack::FrameMonitor* watch = machine.frames();
-    if (watch == nullptr) return fail(ErrorKind::refused, "The rack has no grating bus, so there are no frames.");
+    if (watch == nullptr) return fail(ErrorKind::refused, "The rack has no grating bus, so it has no frames.");
     json cards = json::array();
     const std::vector<rack::FrameRow> rows = watch->rows();
     const grating_bus::Frame* first = rows.empty() ? nullptr : rows.front().frame;

@@ -113,8 +113,9 @@ constexpr std::array name_fields = {text("name", 32, "name of a card of the rack
 constexpr std::array workpiece_fields = {
     text("scanner", 32, "name of a scan head of the rack"),
     integer("points", 2, 100'000, "maximum number of points, approximate; 5000", false)};
-constexpr std::array path_fields = {number("since", -1, 1e9, "s", "only motion after this instant", false),
-                                    integer("have", 0, 9e15, "number of a known plan, which is then omitted", false)};
+constexpr std::array path_fields = {
+    number("since", -1, 1e9, "s", "only motion after this instant", false),
+    integer("have", 0, 9e15, "number of the plan that the client has; the answer omits this plan", false)};
 constexpr std::array scope_fields = {
     integer("since", 0, 9e15, "number of a known capture: only a later one is sent", false)};
 constexpr std::array event_fields = {integer("since", 0, 9e15, "number of the last known event", false),

@@ -109,8 +109,8 @@ std::string rack_file_reference() {
            fields_table(homing_fields(), &linear.homing, &rotary.homing);
     const RackProbe probe;
     out +=
-        "## [probe]\nA touch probe for G38.2 to G38.5 and the workpiece that it touches, in machine coordinates: with "
-        "the section there is a probe. "
+        "## [probe]\nA touch probe for G38.2 to G38.5 and the workpiece that it touches, in machine coordinates. "
+        "Without this section the rack has no probe. "
         "Where an axis has one bound or none the workpiece is unbounded there; without any bound the probe touches "
         "nothing. The axes must be on a card "
         "of type mcx314 with `variant = \"mcx314as\"`; by default its wire `probe` leads to the input `in3` of each of "

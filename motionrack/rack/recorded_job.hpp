@@ -46,8 +46,8 @@ struct JobObservers {
 
 class RecordedJob {
   public:
-    /// Builds everything without any motion. `request` must outlive it. Errors: as FaultSchedule, CommandSchedule, the
-    /// recorders.
+    /// Builds everything without any motion. `request` must outlive the object. Errors: as FaultSchedule,
+    /// CommandSchedule, the recorders.
     static Result<std::unique_ptr<RecordedJob>> create(const JobRequest& request, const JobObservers& watchers);
     ~RecordedJob();
 

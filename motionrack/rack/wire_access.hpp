@@ -16,7 +16,7 @@ namespace motionrack::rack {
 
 class WireAccess {
   public:
-    /// May be created at any time; the rack must outlive it. One per rack.
+    /// May be created at any time; the rack must outlive the object. One per rack.
     explicit WireAccess(Rack& rack);
 
     /// Returns the level of CARD.PIN, NAME.END or estop: 0 or 1, or V for analog pins. Errors: invalid_input for an

@@ -213,7 +213,7 @@ class Reader {
         if (const double numbers = std::fabs(range.to - range.from) + 1;
             range.integer && settings.steps && static_cast<double>(*settings.steps) > numbers)
             return refuse(node.location_of("steps"),
-                          fmt::format("{} has {} steps, but there are only {} whole numbers.", parameter.name,
+                          fmt::format("{} has {} steps, but its range has only {} whole numbers.", parameter.name,
                                       *settings.steps, rack::number_text(numbers)));
         if (!settings.steps) {
             parameter.range = range;

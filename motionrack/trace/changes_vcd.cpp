@@ -115,7 +115,7 @@ Result<void> VcdChanges::read_head() {
             scopes.push_back((scopes.empty() ? "" : scopes.back()) + word_ + '.');
             MOTIONRACK_CHECK(skip_to_end());
         } else if (word_ == "$upscope") {
-            if (scopes.empty()) return refuse("A scope is left that was not entered.");
+            if (scopes.empty()) return refuse("$upscope without an open scope.");
             scopes.pop_back();
             MOTIONRACK_CHECK(skip_to_end());
         } else if (word_ == "$var") {

@@ -34,7 +34,7 @@ void compare_heads(const RecordingReader& a, const RecordingReader& b, Diff& dif
         diff.made_of.push_back(fmt::format("only {} was run with --block-delete", x.block_delete ? "A" : "B"));
     if (x.live != y.live)
         diff.made_of.push_back(
-            fmt::format("only {} was executed with orders, which splits long moves", x.live ? "A" : "B"));
+            fmt::format("only {} was executed with commands, which splits long moves", x.live ? "A" : "B"));
     if (x.sample_period != y.sample_period)
         diff.made_of.push_back(fmt::format("samples are {} s apart in A, {} s in B", to_seconds(x.sample_period),
                                            to_seconds(y.sample_period)));

@@ -820,7 +820,7 @@ axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: mask of axes.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def report(self, axis: int) -> str:
-        """State, position and stop reason of axes. The source names it without listing it.
+        """Reports state, position and stop reason of axes. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
@@ -833,7 +833,7 @@ on: decelerations use D instead of A; 0 (off), 1 (on).
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def set_output(self, axis: int, output: int, level: int) -> str:
-        """A general output: servo on, brakes. The source names it without listing it.
+        """Sets a general output: servo on, brakes. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 output: OUT0 to OUT7; 0 to 7.
@@ -850,7 +850,7 @@ D: deceleration; 0: as the acceleration; 0 to 8000 x 125 M pulses/s2.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def contour_line(self, axis: int, PX: int, PY: int, PZ: int, PU: int, V: int) -> str:
-        """The next line; waits until the chip takes it. The source names it without listing it.
+        """Adds the next line; waits until the chip accepts it. The source names it without listing it.
 
 axis: two or three axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 PX: from the segment's start; -8388608 to 8388607 pulses.
@@ -861,7 +861,7 @@ V: velocity from here on; 0: unchanged; 0 to 8000 x M pulses/s.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def contour_arc(self, axis: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, clockwise: int, V: int) -> str:
-        """The next arc; waits until the chip takes it. The source names it without listing it.
+        """Adds the next arc; waits until the chip accepts it. The source names it without listing it.
 
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
 PX: from the segment's start; -8388608 to 8388607 pulses.
@@ -892,7 +892,7 @@ axis: two or three axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 Gives: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def pattern_steps(self, plus1: int, minus1: int, plus2: int, minus2: int, plus3: int, minus3: int) -> str:
-        """Sixteen steps of each axis; three words fit before the start. The source names it without listing it.
+        """Adds sixteen steps of each axis; three words fit before the start. The source names it without listing it.
 
 plus1: 16 steps in + direction, the lowest bit first; 0 to 65535.
 minus1: 16 steps in - direction; a bit in both: the drive ends here; 0 to 65535.
@@ -1195,13 +1195,13 @@ class Rtc5:
     def set_fly_limits_z(self, Zmin: float, Zmax: float) -> None:
         """List command: the Z range monitored by bits 24 and 25. Zmin -8388608 to 8388607 bits. Zmax -8388608 to 8388607 bits."""
     def if_fly_x_overflow(self, Mode: float) -> None:
-        """List command: the next command only if bit 4 or 5 is set; clears them. Mode -2147483648 to 2147483647."""
+        """List command: executes the next command only if bit 4 or 5 is set; clears them. Mode -2147483648 to 2147483647."""
     def if_fly_y_overflow(self, Mode: float) -> None:
         """List command: the same for bits 6 and 7. Mode -2147483648 to 2147483647."""
     def if_fly_z_overflow(self, Mode: float) -> None:
         """List command: the same for bits 24 and 25. Mode -2147483648 to 2147483647."""
     def if_not_fly_x_overflow(self, Mode: float) -> None:
-        """List command: the next command only if they are not set; clears them. Mode -2147483648 to 2147483647."""
+        """List command: executes the next command only if they are not set; clears them. Mode -2147483648 to 2147483647."""
     def if_not_fly_y_overflow(self, Mode: float) -> None:
         """List command: the same for bits 6 and 7. Mode -2147483648 to 2147483647."""
     def if_not_fly_z_overflow(self, Mode: float) -> None:
@@ -1445,7 +1445,7 @@ class Rtc5:
     def free_rtc5_dll(self) -> None:
         """Releases the card: commands of this object are refused until select_rtc. Source: the maker's header of the RTC5 of 2013."""
     def get_last_error(self) -> int:
-        """Error bits of the last command of this object that was done or refused, 0: none; its sentence is that of the exception. 2 unknown card, 16 a parameter is wrong, 32 a list is running or the card moves, 64 the list is full, none is open, or there is nothing to read. See error_text. Source: the maker's header of the RTC5 of 2013."""
+        """Error bits of the last command of this object that was done or refused, 0: none; its sentence is that of the exception. 2 unknown card, 16 a parameter is wrong, 32 a list is running or the card moves, 64 the list is full, none is open, or nothing can be read. See error_text. Source: the maker's header of the RTC5 of 2013."""
     def get_error(self) -> int:
         """The error bits of all commands since reset_error. Source: the maker's header of the RTC5 of 2013."""
     def reset_error(self, Code: int) -> None:

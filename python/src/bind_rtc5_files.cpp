@@ -121,7 +121,7 @@ void bind_errors_of_cards(Rtc5Class& c) {
         "get_last_error", [](Rtc5& self) { return self.last_error; },
         "Error bits of the last command of this object that was done or refused, 0: none; its sentence is that of the "
         "exception. 2 unknown card, 16 a parameter is wrong, 32 a list is running or the card moves, 64 the list is "
-        "full, none is open, or there is nothing to read. See error_text. Source: the maker's header of the RTC5 of "
+        "full, none is open, or nothing can be read. See error_text. Source: the maker's header of the RTC5 of "
         "2013.");
     c.def(
         "get_error", [](Rtc5& self) { return self.errors; },

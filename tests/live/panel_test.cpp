@@ -43,7 +43,7 @@ TEST_F(PanelOnARealCard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_TRUE(served->post("take_control").contains("done"));
     good("SetRange", {{"data", 800'000}}, "Written.");
     good("TCurve_F", {{"axis", 1}, {"m_SV", 100}, {"m_V", 2000}, {"m_A", 400}, {"m_Pulse", 2000}}, "X drives.");
-    good("wait", {{"axis", 1}, {"milliseconds", 10'000}}, "X stands as commanded.");
+    good("wait", {{"axis", 1}, {"milliseconds", 10'000}}, "X is at standstill, as commanded.");
     good("ReadLPS", {{"axis", 1}}, "2000 pulses");
     const json shown = served->get("card?name=bench");
     EXPECT_EQ(shown["values"][0]["name"], "x.LP") << shown;

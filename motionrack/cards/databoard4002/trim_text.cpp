@@ -47,7 +47,7 @@ Result<Trim> trim_from_text(std::string_view text) {
         if (!(volts > 0 && volts <= 10)) return refuse("has a voltage outside 0 to 10 V");
         if (rate < 1 || rate > max_rate) return refuse(fmt::format("has a rate outside 1 to {}", max_rate));
         if (out.size == static_cast<int>(out.rows.size()))
-            return refuse(fmt::format("is one too many: there are at most {}", out.rows.size()));
+            return refuse(fmt::format("is one too many; at most {} are allowed", out.rows.size()));
         const auto microvolts = static_cast<std::int32_t>(std::lround(volts * 1e6));
         const TrimRow before = out.size > 0 ? out.rows[static_cast<std::size_t>(out.size) - 1] : TrimRow{};
         if (microvolts <= before.microvolts || rate <= before.rate)

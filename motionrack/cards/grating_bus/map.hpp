@@ -80,10 +80,17 @@ inline constexpr RegisterInfo registers[] = {
     {"WORDS", 0x4C, 16, r, false, "", "claimed: N of the frame; 0: no frame was published yet", {}},
     {"CRC_L", 0x4E, 16, r, false, "", "claimed: CRC-32 of the frame, low", {}},
     {"CRC_H", 0x50, 16, r, false, "", "claimed: the same, high", {}},
-    {"COUNT_L", 0x100, 16, r, false, "", "claimed: count of word 0, low; of word k 4k bytes on", {}},
+    {"COUNT_L", 0x100, 16, r, false, "", "claimed: count of word 0, low; word k follows 4k bytes later", {}},
     {"COUNT_H", 0x102, 16, r, false, "", "claimed: the same, high", {}},
-    {"ADDRESS", 0x300, 16, r, false, "", "claimed: address of the scale of word 0; of word k 2k bytes on", {}},
-    {"LIST", 0x400, 16, r, false, "", "address that the card's own list has for word 0; for word k 2k bytes on", {}},
+    {"ADDRESS", 0x300, 16, r, false, "", "claimed: address of the scale of word 0; word k follows 2k bytes later", {}},
+    {"LIST",
+     0x400,
+     16,
+     r,
+     false,
+     "",
+     "address that the card's own list has for word 0; word k follows 2k bytes later",
+     {}},
 };
 static_assert(declared<registers_flaw(registers)>());
 
@@ -170,7 +177,7 @@ inline constexpr RegisterInfo decoder_registers[] = {
      r,
      false,
      "",
-     "count of scale 0 now, low; reading it keeps the high word for the next read; of scale n 4n bytes on",
+     "count of scale 0 now, low; reading it keeps the high word for the next read; scale n follows 4n bytes later",
      {}},
     {"COUNT_H", 0x102, 16, r, false, "", "the high word of the count whose low word was read last", {}},
 };

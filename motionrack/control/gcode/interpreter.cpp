@@ -377,17 +377,17 @@ bool Interpreter::unused() {
         use = "; it is the radius of an arc (G2, G3) or the retract height of a drilling cycle (G73, G81 .. G89)";
     } else if (letter == 'P') {
         use =
-            "; it goes with G4, G10, G64, M50 .. M53, M62 .. M66 and the cycles that wait, and with arcs that have an "
+            "; use it with G4, G10, G64, M50 .. M53, M62 .. M66 and the cycles that wait, and with arcs that have an "
             "end or offsets on the same line";
     } else if (letter == 'L') {
-        use = "; it goes with G10, M66 and the drilling cycles (G73, G81 .. G89)";
+        use = "; use it with G10, M66 and the drilling cycles (G73, G81 .. G89)";
     } else if (letter == 'E') {
         if (unused_exponent()) return false;
-        use = "; it goes with M66, M67 and M68 (an analog input or output); the machine has no extruder";
+        use = "; use it with M66, M67 and M68 (an analog input or output); the machine has no extruder";
     } else if (letter == 'D') {
-        use = "; it goes with G41, G42 (a tool's number), G41.1 and G42.1 (a diameter)";
+        use = "; use it with G41, G42 (a tool's number), G41.1 and G42.1 (a diameter)";
     } else if (letter == 'H') {
-        use = "; it goes with G43 and G43.2 (a tool's number)";
+        use = "; use it with G43 and G43.2 (a tool's number)";
     } else if (letter == 'Q') {
         use =
             "; it is the peck depth of G73 and G83, a control point of G5, the longest wait of M66, and the value of "

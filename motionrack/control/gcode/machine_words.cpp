@@ -19,7 +19,7 @@ bool Interpreter::apply_machine_words() {
     } else if (block_.has_m(m_tool)) {
         if (next_.tool_selected < 0) {
             return fail_at(block_.m_column[m_tool], GrblStatus::word_missing,
-                           "M6 changes to the tool that a T word has selected, and there was none; write e.g. T1 M6");
+                           "M6 changes to the tool selected by a T word, and none was selected; write e.g. T1 M6");
         }
         next_.tool_loaded = next_.tool_selected;
         todo_ |= todo_tool_change;

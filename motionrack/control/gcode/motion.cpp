@@ -58,7 +58,7 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
         if (code != 0 && code != 10) {
             return fail_at(
                 column, GrblStatus::g53_without_line,
-                fmt::format("G53 (machine coordinates) goes with G0 or G1 only, and {} is active; write e.g. G53 G0 Z0",
+                fmt::format("G53 (machine coordinates) needs G0 or G1, and {} is active; write e.g. G53 G0 Z0",
                             code == no_motion ? "no motion" : name_of_g(code)));
         }
         if (!wants_motion) {

@@ -34,7 +34,7 @@ bool Interpreter::set_offsets() {
     if (block_['P'] > (by_sender ? grbl_work_system_count : work_offset_count)) {
         return fail_word(
             'P', GrblStatus::no_such_system,
-            fmt::format("{}: there are {} work systems, P1 (G54) to P6 (G59), {}and P0 for the active one",
+            fmt::format("{}: the machine has {} work systems, P1 (G54) to P6 (G59), {}and P0 for the active one",
                         word_text('P'), by_sender ? "six" : "nine", by_sender ? "" : "P7 (G59.1) to P9 (G59.3), "));
     }
     used_ |= letter_bit('L') | letter_bit('P');

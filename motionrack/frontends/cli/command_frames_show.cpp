@@ -165,7 +165,7 @@ int show_frames(const ShowOptions& options) {
     rack::Rack rack(*config);
     if (rack::grating_bus_of(rack) == nullptr) {
         print_error(
-            "The rack has no card of type grating_bus, so there are no frames. Nothing was run. See examples/13_stage "
+            "The rack has no card of type grating_bus, so it has no frames. Nothing was run. See examples/13_stage "
             "for one that has.");
         return exit_usage;
     }
@@ -227,7 +227,7 @@ void add_frames_show(CLI::App& frames, Action& chosen) {
         "Example: motionrack frames bus.toml\n"
         "Example: motionrack frames bus.toml --duration 0.002 --vcd frames.vcd --picture frame.svg\n"
         "Example: motionrack frames bus.toml --fault c1.off@0.05s\n"
-        "Exit code 4: cards do not agree, frames were not true, data are stale, or there were conflicts.");
+        "Exit code 4: cards do not agree, frames were not true, data are stale, or conflicts occurred.");
     frames.callback([options, &chosen, &frames] {
         if (!frames.get_subcommands().empty()) return;
         chosen = [options] { return show_frames(*options); };

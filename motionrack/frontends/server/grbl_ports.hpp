@@ -43,7 +43,7 @@ struct GrblPortSettings {
 class GrblPorts {
   public:
     /// Opens the configured ports and serves them on a separate thread. Call before Machine::run; machine and lease
-    /// must outlive it. Errors: io if the port is in use, no pseudo-terminal is available, or the link path is
+    /// must outlive the object. Errors: io if the port is in use, no pseudo-terminal is available, or the link path is
     /// occupied.
     static Result<std::unique_ptr<GrblPorts>> open(const GrblPortSettings& settings, operate::Machine& machine,
                                                    auth::ControlLease& lease);

@@ -61,7 +61,7 @@ Result<std::string> decoded(std::string_view text) {
                       low = i + 2 < text.size() ? hexadecimal(text[i + 2]) : -1;
             if (high < 0 || low < 0)
                 return fail(ErrorKind::invalid_input,
-                            "After a % in the address there are two hexadecimal digits. Nothing was done.");
+                            "A % in the address must be followed by two hexadecimal digits. Nothing was done.");
             out += static_cast<char>(high * 16 + low);
             i += 2;
         }

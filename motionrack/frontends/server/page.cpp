@@ -44,7 +44,7 @@ constexpr std::string_view no_page = R"(<!doctype html>
 <h1>Motionrack</h1>
 <p>The rack runs; its page has not been built. Start it with <code>./run serve</code>, which builds the page,
 or name its folder with <code>--page FOLDER</code>.</p>
-<p>Programs can ask at once: <a href="/api/openapi.json">/api/openapi.json</a> says what there is.</p>
+<p>Programs can ask at once: <a href="/api/openapi.json">/api/openapi.json</a> lists all of them.</p>
 </body></html>
 )";
 

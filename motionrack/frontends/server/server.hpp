@@ -15,7 +15,7 @@ namespace motionrack::server {
 
 class Server {
   public:
-    /// Opens the port and starts to serve. Call before Machine::run; panel, door and lease must outlive it.
+    /// Opens the port and starts to serve. Call before Machine::run; panel, door and lease must outlive the object.
     /// Errors: io (the port is in use, a TLS file cannot be read), refused (a non-loopback address without TLS),
     /// invalid_input (invalid address).
     static Result<std::unique_ptr<Server>> open(ServerSettings settings, panel::Panel& panel, auth::Authenticator& door,

@@ -83,7 +83,7 @@ class PanelService {
     /// `is_known`: the client was authenticated; others may write only a limited number of audit entries.
     void audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer,
                bool is_known);
-    /// Called every few ms.
+    /// The server calls it every few ms.
     void tick() { unknown_senders_.tick(now().steady); }
     const ServerSettings& settings() const { return settings_; }
     auth::Timestamps now() const { return settings_.clock(); }

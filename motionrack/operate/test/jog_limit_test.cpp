@@ -138,8 +138,7 @@ TEST(ContinuousJog, AtALimitIsRefusedThatWayAndGoesTheOther) {
     o.at(0.1, [](Machine& m) { static_cast<void>(m.jog('X', 20)); });
     o.at(0.2, [&](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::standstill);
-        EXPECT_THAT(m.status().reason,
-                    HasSubstr("it stands at the + end of its travel, 300 mm; move it in - direction"));
+        EXPECT_THAT(m.status().reason, HasSubstr("it is at the + end of its travel, 300 mm; move it in - direction"));
         EXPECT_DOUBLE_EQ(o.x(), 300);
         EXPECT_TRUE(m.jog('X', -20));
     });

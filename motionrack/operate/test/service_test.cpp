@@ -198,9 +198,10 @@ TEST(Service, IsBegunByACallToACardThatNothingDrives) {
     });
     o.at(0.9, [](Machine& m) { EXPECT_EQ(m.state(), MachineState::disabled); });
     o.run(1);
-    EXPECT_EQ(o.said, (std::vector<std::string>{"Written.", "X drives.", "X stands as commanded.", "500 pulses",
-                                                "refused: ReadLPS was not called: card free is in service, not card "
-                                                "m. End that service first."}));
+    EXPECT_EQ(o.said,
+              (std::vector<std::string>{"Written.", "X drives.", "X is at standstill, as commanded.", "500 pulses",
+                                        "refused: ReadLPS was not called: card free is in service, not card "
+                                        "m. End that service first."}));
 }
 
 TEST(Service, CallsOneFunctionAtATimeAndHearsOrdersWhileItWaits) {

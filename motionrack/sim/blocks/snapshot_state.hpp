@@ -5,7 +5,7 @@
 
 namespace motionrack::sim {
 
-/// Only refers to `bytes`, which must outlive it and must not move.
+/// Only refers to `bytes`, which must outlive the object and must not move.
 class SnapshotState final : public Device {
   public:
     void on_scheduled(Instant) override {}

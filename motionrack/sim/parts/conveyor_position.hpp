@@ -18,8 +18,8 @@ namespace motionrack::parts {
 
 class ConveyorPosition final : public sim::DeferringDevice, public sim::PositionFunction {
   public:
-    /// Adds the device `name` to the kernel before it starts. `track` must outlive it; its counts per unit must not be
-    /// 0.
+    /// Adds the device `name` to the kernel before it starts. `track` must outlive the object; its counts per unit must
+    /// not be 0.
     ConveyorPosition(sim::Kernel& kernel, const std::string& name, const Conveyor& track, double counts_per_unit);
 
     std::int64_t count(Instant t) const override;

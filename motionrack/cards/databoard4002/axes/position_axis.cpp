@@ -68,8 +68,8 @@ Result<void> PositionAxis::check_free(const char* what, bool forward) {
     const StatusByte status = driver_.status();
     if (status.emergency()) return refuse(what, "the emergency stop is active; release it");
     if (status.end_stop(forward))
-        return refuse(what, fmt::format("it stands on the {} end stop; move it in {} direction",
-                                        forward ? "right" : "left", forward ? "-" : "+"));
+        return refuse(what, fmt::format("it is on the {} end stop; move it in {} direction", forward ? "right" : "left",
+                                        forward ? "-" : "+"));
     return {};
 }
 
@@ -155,7 +155,7 @@ Result<void> PositionAxis::begin_jog(double speed, Instant now) {
     const std::int64_t target =
         std::clamp(position_valid_ ? limit : counter_end, std::max(map::min_24, here - max_move_counts),
                    std::min(map::max_24, here + max_move_counts));
-    if (forward ? target <= here : target >= here) return refuse("Jog", "it stands at the end of its travel");
+    if (forward ? target <= here : target >= here) return refuse("Jog", "it is at the end of its travel");
     MOTIONRACK_CHECK(begin("Jog", target, rate, forward));
     doing_ = Doing::jogging;
     speed_ = wanted_ = settings_.scale.speed(rate);

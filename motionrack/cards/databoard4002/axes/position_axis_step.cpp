@@ -126,8 +126,8 @@ Result<void> PositionAxis::wait(Duration timeout) {
     }
     if (homing && !search_.homed()) return tl::unexpected<Error>(search_.error());
     if (asked)
-        return fail(ErrorKind::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.",
-                                                    settings_.name, position(), settings_.unit));
+        return fail(ErrorKind::stopped, fmt::format("Axis {} was stopped on request at {:.4f} {}.", settings_.name,
+                                                    position(), settings_.unit));
     if (error_) return tl::unexpected<Error>(*error_);
     return {};
 }

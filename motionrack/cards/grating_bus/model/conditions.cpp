@@ -44,7 +44,7 @@ std::string what_happened(const sim::Condition& c) {
                 c.a);
         case BusCondition::stale:
             if (c.a < 0)
-                return "no frame has come for two periods since the start; there are no positions. Check that the bus "
+                return "no frame has come for two periods since the start; no position is known. Check that the bus "
                        "has a running host.";
             return fmt::format(
                 "no good frame for two periods since frame {} of {:.7f} s; its positions are stale and must not be "

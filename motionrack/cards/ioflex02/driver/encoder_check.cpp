@@ -156,7 +156,7 @@ std::string describe(const Finding& f, const AxisDetail& now, const std::string&
                 axis, f.number, from, to);
         case EncoderFault::counts_extra:
             return fmt::format(
-                "axis {}: there are {} counts too many between the index pulses at {} and {}: noise on the lines. "
+                "axis {}: {} counts too many between the index pulses at {} and {}: noise on the lines. "
                 "Calibrate again",
                 axis, f.number, from, to);
         case EncoderFault::backwards:

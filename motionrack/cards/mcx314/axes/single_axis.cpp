@@ -65,7 +65,7 @@ Result<void> SingleAxis::check_free(const char* what) {
 Result<void> SingleAxis::check_into_limit(const char* what, bool negative) {
     const DriveStatus status = driver_.axis_status(settings_.channel);
     if (!(negative ? field("RR2", "HLMTM") : field("RR2", "HLMTP")).test(status.rr2)) return {};
-    return refuse(what, fmt::format("it stands on the {} limit switch; move it in {} direction", negative ? "-" : "+",
+    return refuse(what, fmt::format("it is on the {} limit switch; move it in {} direction", negative ? "-" : "+",
                                     negative ? "+" : "-"));
 }
 
@@ -128,10 +128,10 @@ Result<void> SingleAxis::check_travel(double speed) {
     const bool negative = speed < 0;
     const std::int64_t at = driver_.ReadLPS(settings_.channel);
     if (!position_valid_ || (negative ? at > travel().min : at < travel().max)) return {};
-    return refuse("Jog", fmt::format("it stands at the {} end of its travel, {} {}; move it in {} direction",
-                                     negative ? "-" : "+",
-                                     negative ? settings_.limits.min_position : settings_.limits.max_position,
-                                     settings_.unit, negative ? "+" : "-"));
+    return refuse("Jog",
+                  fmt::format("it is at the {} end of its travel, {} {}; move it in {} direction", negative ? "-" : "+",
+                              negative ? settings_.limits.min_position : settings_.limits.max_position, settings_.unit,
+                              negative ? "+" : "-"));
 }
 
 Result<void> SingleAxis::jog(double speed, Instant now) {
@@ -349,8 +349,8 @@ Result<void> SingleAxis::wait(Duration timeout) {
     }
     if (homing && !home_.homed()) return home_.report().result();
     if (asked)
-        return fail(ErrorKind::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.",
-                                                    settings_.name, position(), settings_.unit));
+        return fail(ErrorKind::stopped, fmt::format("Axis {} was stopped on request at {:.4f} {}.", settings_.name,
+                                                    position(), settings_.unit));
     const std::string why = jogged_ ? manual_.why_ended() : driver_.axis_status(settings_.channel).why_stopped();
     if (!homing && !why.empty())
         return fail(

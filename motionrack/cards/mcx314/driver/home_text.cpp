@@ -234,8 +234,8 @@ std::string Home::why_failed(const PollData& poll) const {
             break;
     }
     return fmt::format("Axis {} is not homed: {}. It {} {}; its position is not valid. {} again.", axis, what,
-                       poll.driving ? "still moves after a stop command, at" : "was stopped and stands at",
-                       place(poll.lp), next.empty() ? "Home it" : fmt::format("{}, then home", next));
+                       poll.driving ? "still moves after a stop command, at" : "was stopped at", place(poll.lp),
+                       next.empty() ? "Home it" : fmt::format("{}, then home", next));
 }
 
 }  // namespace motionrack::mcx314

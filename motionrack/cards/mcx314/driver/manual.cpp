@@ -88,7 +88,7 @@ Result<void> Manual::check_ready(const char* what, std::int64_t v) {
     if (field("RR2", "ALARM").test(status.rr2)) return refuse("its drive reports an alarm; clear it");
     const bool negative = v < 0;
     if ((negative ? field("RR2", "HLMTM") : field("RR2", "HLMTP")).test(status.rr2))
-        return refuse(fmt::format("it stands on the {} limit switch; move it in {} direction", negative ? "-" : "+",
+        return refuse(fmt::format("it is on the {} limit switch; move it in {} direction", negative ? "-" : "+",
                                   negative ? "+" : "-"));
     if ((negative ? field("RR2", "SLMTM") : field("RR2", "SLMTP")).test(status.rr2))
         return refuse(fmt::format("it is beyond the {} software limit; move it in {} direction", negative ? "-" : "+",

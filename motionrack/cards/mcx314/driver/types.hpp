@@ -87,7 +87,7 @@ struct CONTDATA {
     std::int64_t D = 0;   ///< deceleration at the end; 0: as A
 };
 
-/// Result of a chain.
+/// Result of a chain of segments: their number and the speed at the end.
 struct ContOutcome {
     std::int64_t segments = 0;
     std::int64_t end_speed =

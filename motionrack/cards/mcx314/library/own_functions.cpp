@@ -56,7 +56,7 @@ Result<CallAnswer> stop(LibraryChip& chip, Values v) {
 }
 Result<CallAnswer> wait(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK(chip.driver.wait_until_done(axes_of(v[0]), milliseconds(v[1])));
-    return CallAnswer{{}, fmt::format("{} stands as commanded.", axes_text(axes_of(v[0])))};
+    return CallAnswer{{}, fmt::format("{} is at standstill, as commanded.", axes_text(axes_of(v[0])))};
 }
 Result<CallAnswer> moving(LibraryChip& chip, Values v) {
     std::int64_t out = 0;
@@ -149,20 +149,31 @@ constexpr std::array rows = {
     FunctionRow{{"at_limit", motion, "Mask of the axes at a limit switch or beyond a software limit.", some_axes, mask,
                  false, true},
                 at_limit},
-    FunctionRow{{"report", motion, "State, position and stop reason of axes.", some_axes, {}, false, true}, report},
+    FunctionRow{{"report", motion, "Reports state, position and stop reason of axes.", some_axes, {}, false, true},
+                report},
     FunctionRow{{"asymmetric", motion, "Selects D instead of A for decelerations.", asymmetric_data, {}, false, true},
                 asymmetric},
-    FunctionRow{{"set_output", motion, "A general output: servo on, brakes.", output_data, {}, false, true},
+    FunctionRow{{"set_output", motion, "Sets a general output: servo on, brakes.", output_data, {}, false, true},
                 set_output},
 
     FunctionRow{{"contour_begin", contours, "Opens a contour with its speeds.", contour_data, {}, false, true},
                 contour_begin},
-    FunctionRow{
-        {"contour_line", contours, "The next line; waits until the chip takes it.", contour_line_data, {}, true, true},
-        contour_line},
-    FunctionRow{
-        {"contour_arc", contours, "The next arc; waits until the chip takes it.", contour_arc_data, {}, true, true},
-        contour_arc},
+    FunctionRow{{"contour_line",
+                 contours,
+                 "Adds the next line; waits until the chip accepts it.",
+                 contour_line_data,
+                 {},
+                 true,
+                 true},
+                contour_line},
+    FunctionRow{{"contour_arc",
+                 contours,
+                 "Adds the next arc; waits until the chip accepts it.",
+                 contour_arc_data,
+                 {},
+                 true,
+                 true},
+                contour_arc},
     FunctionRow{
         {"contour_end", contours, "Executes the last segment and waits for the end.", {}, "segments", true, true},
         contour_end},
@@ -171,7 +182,7 @@ constexpr std::array rows = {
                 pattern_begin},
     FunctionRow{{"pattern_steps",
                  patterns,
-                 "Sixteen steps of each axis; three words fit before the start.",
+                 "Adds sixteen steps of each axis; three words fit before the start.",
                  steps_data,
                  {},
                  true,

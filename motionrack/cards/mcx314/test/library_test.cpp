@@ -131,7 +131,7 @@ TEST(DeclaredLibrary, MovesAndReads) {
     EXPECT_EQ(rig.value("moving", 15), 1);
     const Result<CallAnswer> stands = rig.call("wait", {{"axis", 1}, {"milliseconds", 10'000}});
     ASSERT_TRUE(stands) << stands.error().message;
-    EXPECT_EQ(stands->text, "X stands as commanded.");
+    EXPECT_EQ(stands->text, "X is at standstill, as commanded.");
     const Result<CallAnswer> place = rig.call("ReadLPS", {{"axis", 1}});
     ASSERT_TRUE(place);
     EXPECT_EQ(place->value, -500);

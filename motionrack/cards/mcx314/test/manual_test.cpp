@@ -96,7 +96,7 @@ TEST(Jog, EndsAtALimitAndOnlyLeavesIt) {
     ManualRig rig({.start_mm = 300});
     rig.run(whole_seconds(3), 500);
     EXPECT_FALSE(rig.last);
-    EXPECT_THAT(rig.last.error().message, HasSubstr("it stands on the + limit switch; move it in - direction"));
+    EXPECT_THAT(rig.last.error().message, HasSubstr("it is on the + limit switch; move it in - direction"));
     EXPECT_EQ(rig.manual.state(), ManualState::standing);
     EXPECT_THAT(rig.manual.why_ended(), HasSubstr("+ limit switch"));
     const std::int64_t at = rig.rotor();

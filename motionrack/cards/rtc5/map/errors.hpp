@@ -13,7 +13,7 @@ inline constexpr BitInfo error_bits[] = {
     {"ACCESS_DENIED", 1, "unknown card number"},
     {"PARAM_ERROR", 4, "a parameter is wrong"},
     {"BUSY", 5, "a list is running, or the card moves"},
-    {"REJECTED", 6, "the list is full, or none is open, or there is nothing to read"},
+    {"REJECTED", 6, "the list is full, none is open, or nothing can be read"},
 };
 static_assert(declared<bits_flaw(error_bits)>());
 

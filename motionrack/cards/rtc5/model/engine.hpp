@@ -44,7 +44,7 @@ class Inputs {
     virtual ~Inputs() = default;
     /// Counts (x4, wrapping) of an encoder at `first`, `first` + 1, ..
     virtual void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) = 0;
-    /// The McBSP word that is complete at these ticks; false: this source delivers none.
+    /// Gets the McBSP word that is complete at these ticks; returns false if this source delivers no words.
     virtual bool words(std::int64_t first, std::span<std::uint32_t> out) { return (void)first, (void)out, false; }
 };
 
