@@ -29,7 +29,7 @@ TEST_F(CanonCommand, PrintsOneCallALine) {
                 HasSubstr("    1 N..... USE_LENGTH_UNITS(CANON_UNITS_MM)\n"));
 }
 
-TEST_F(CanonCommand, SaysByItsExitCodeThatAProgramIsRefused) {
+TEST_F(CanonCommand, ReportsARefusedProgramByItsExitCode) {
     write("part.ngc", "G21 G0 X1\nG0 X[1 / 0]\n");
     const Ran ran = motionrack("canon part.ngc");
     EXPECT_NE(ran.code, 0);
@@ -73,7 +73,7 @@ TEST_F(CanonCommand, FindsSubprogramsBesideTheProgram) {
     EXPECT_EQ(missing.code, 2);
 }
 
-TEST_F(CanonCommand, TellsASubprogramThatCannotBeReadFromAWrongOne) {
+TEST_F(CanonCommand, DistinguishesAnUnreadableSubprogramFromAWrongOne) {
     write("part.ngc", "G21 G90\no<hole> call [5]\nM2\n");
     std::filesystem::create_directories(folder / "hole.ngc");
     for (const std::string command : {"canon", "check", "run --no-report"}) {

@@ -42,7 +42,7 @@ class Decode : public testing::Test {
     fs::path folder_;
 };
 
-TEST_F(Decode, CountsWhatTheJobsSummarySays) {
+TEST_F(Decode, CountsWhatTheJobsSummaryStates) {
     write("move.ngc", "G21 G90\nG1 X2 Y1 F600\nG3 X1 Y2 I-1 J0\nG1 X0.5 Z79\nM2\n");
     const auto summary = json_of("trace move.ngc move.vcd --signals '?.enc_?' --json");
     const auto decoded = json_of("decode move.vcd --json");

@@ -26,7 +26,7 @@ std::string pascal(const std::string& mode, const std::string& name) {
 class PascalMode : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Pascal, PascalMode, testing::Values("fpc", "tp", "delphi", "objfpc"));
 
-TEST_P(PascalMode, ThePrintedExampleTellsEachOutcomeOfInit) {
+TEST_P(PascalMode, ThePrintedExampleReportsEachOutcomeOfInit) {
     const std::string init = pascal(GetParam(), "init");
     const Ran good = run(examples, init);
     EXPECT_EQ(good.code, 0);
@@ -54,7 +54,7 @@ TEST_P(PascalMode, AProgramCalibratesFourAxes) {
     EXPECT_EQ(run(examples, pascal(GetParam(), "calibrate")).out, text_of(examples / "12_pascal" / "expected.txt"));
 }
 
-TEST_P(PascalMode, EveryFunctionOfTheUnitsDoesWhatItSays) {
+TEST_P(PascalMode, EveryFunctionOfTheUnitsDoesWhatItStates) {
     const Ran ran = run(examples, pascal(GetParam(), "functions"));
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, "0 wrong\n");
@@ -106,7 +106,7 @@ TEST_F(ImageCommand, ThePageAboutImagesShowsTheOutputOfItsCommands) {
     EXPECT_EQ(codes.at("image check old.bin"), 2);
 }
 
-TEST_F(ImageCommand, SaysWhatInitWouldComeTo) {
+TEST_F(ImageCommand, ReportsTheResultThatInitWouldHave) {
     EXPECT_EQ(image("make -o old.bin --ident 0x24").code, 0);
     EXPECT_EQ(image("check old.bin").code, 2);
     EXPECT_NE(image("check old.bin").out.find("Flex_ErrProject"), std::string::npos);
@@ -133,7 +133,7 @@ TEST_F(ImageCommand, RejectsInvalidArgumentsAndCreatesNoImage) {
     EXPECT_FALSE(std::filesystem::exists(folder / "irc.bin"));
 }
 
-TEST_F(ImageCommand, TakesBitsOfTheUsersOwnAndWritesConstantsForCAndPascal) {
+TEST_F(ImageCommand, AcceptsUserBitsAndWritesConstantsForCAndPascal) {
     EXPECT_EQ(run_in(folder, "printf 'bits' > IRC.RBF").code, 0);
     EXPECT_EQ(image("make IRC.RBF -o irc.bin").code, 0);
     EXPECT_NE(image("show irc.bin").out.find("payload   12 bytes"), std::string::npos);

@@ -62,7 +62,7 @@ TEST(Journey, ManyShortLinesRunAtFullFeed) {
     EXPECT_GT(done.outcome.path_mm / to_seconds(done.outcome.time), 40.0) << "mm/s of 50";
 }
 
-TEST(Journey, ALimitSwitchStopsTheJobAndSaysWhere) {
+TEST(Journey, ALimitSwitchStopsTheJobAndReportsWhere) {
     RackConfig config = router();
     config.axes[0].switches.limit_plus = 40;
     const Done done = drive(config, "G21 G90\nG1 X100 F3000\nG1 X0\n");
@@ -75,7 +75,7 @@ TEST(Journey, ALimitSwitchStopsTheJobAndSaysWhere) {
     EXPECT_EQ(done.outcome.axes[0].lost_pulses, 0);
 }
 
-TEST(Journey, AWeakMotorLosesStepsAndTheJobSaysSo) {
+TEST(Journey, AWeakMotorLosesStepsAndTheJobReportsIt) {
     RackConfig config = router();
     config.axes[0].motor.pull_out_hz = 30'000;  // 47 mm/s
     config.axes[0].following_error_alarm = 0;

@@ -104,7 +104,7 @@ TEST_F(MarkCommand, PrintsTheSameAsJson) {
     EXPECT_TRUE(all["warnings"].empty());
 }
 
-TEST_F(MarkCommand, WarnsBeforeTheFieldOverflowsAndTellsEachOverflowByName) {
+TEST_F(MarkCommand, WarnsBeforeTheFieldOverflowsAndReportsEachOverflowByName) {
     write("job.toml", square + "[belt]\nvelocity_mm_s = 720\n[fly]\nmode = 'encoder'\n");
     const Ran near = motionrack("mark job.toml");
     EXPECT_EQ(near.code, 0);
@@ -162,7 +162,7 @@ TEST_F(MarkCommand, RefusesWrongDrawingsAndTablesWithTheirPlaces) {
     refused("[drawing]\ngcode = 'd.ngc'\n", 2, "d.ngc:2:");
 }
 
-TEST_F(MarkCommand, SaysBeforeTheRunThatAFileCannotBeWritten) {
+TEST_F(MarkCommand, ReportsBeforeTheRunThatAFileCannotBeWritten) {
     const std::string marking = "mark examples/marking/square.toml ";
     std::filesystem::create_directories(folder / "results");
     for (const char* option : {"--picture no_such_folder/p.png --report r.html", "--picture p.svg --report results"}) {
@@ -190,7 +190,7 @@ TEST_F(MarkCommand, OverwritesNeitherWhatItReadsNorAnotherOutput) {
     EXPECT_EQ(motionrack("mark job.toml -q --picture other.svg").code, 0);
 }
 
-TEST_F(MarkCommand, SaysThatADrawingIsOutsideTheField) {
+TEST_F(MarkCommand, ReportsThatADrawingIsOutsideTheField) {
     write("job.toml", square + "[fly]\nmode = 'off'\n");
     EXPECT_EQ(motionrack("mark job.toml -q --picture ''").code, 0);
     write("job.toml", "[drawing]\ntext = 'I'\nheight_mm = 200\n");
@@ -243,7 +243,7 @@ TEST_F(MarkCommand, ShowsItsProgressAndWritesNothingWhenStopped) {
     EXPECT_FALSE(there("mark.svg") || there("r.html"));
 }
 
-TEST_F(MarkCommand, CalibratesOrSaysWhyNot) {
+TEST_F(MarkCommand, CalibratesOrReportsWhyNot) {
     EXPECT_THAT(motionrack("calibrate scale --readings 1000 51000 --distance 50").out, HasSubstr("1000 +- "));
     struct Case {
         const char* arguments;

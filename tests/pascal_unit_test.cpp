@@ -14,7 +14,7 @@ namespace {
 class RackUnit : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Pascal, RackUnit, testing::Values("fpc", "tp", "delphi", "objfpc"));
 
-TEST_P(RackUnit, EveryFunctionDoesWhatItSays) {
+TEST_P(RackUnit, EveryFunctionDoesWhatItStates) {
     const Ran ran =
         run_in(source_root / "examples",
                std::string("LD_LIBRARY_PATH='" MOTIONRACK_C_LIBRARY_FOLDER "' '" MOTIONRACK_PASCAL_EXAMPLES "/") +

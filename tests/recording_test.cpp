@@ -178,7 +178,7 @@ TEST_F(RecordedRun, IsTheSameAgainWhenTheMachineStoppedIt) {
     expect_same_again("a.h5");
 }
 
-TEST_F(RecordedRun, IsTheSameAgainWhenSomebodyStoppedIt) {
+TEST_F(RecordedRun, IsTheSameAgainAfterAStop) {
     for (const double stop_s : {0.2, 0.63}) {
         for (const bool live : {false, true}) {
             const JobRequest request =

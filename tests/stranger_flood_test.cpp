@@ -159,7 +159,7 @@ class RequestFlood : public InFolder {
     }
 };
 
-TEST_F(RequestFlood, BesideAHundredStopsFillsNeitherDiskNorMemoryAndStopIsHeard) {
+TEST_F(RequestFlood, BesideAHundredStopsFillsNeitherDiskNorMemoryAndStopIsExecuted) {
     const Seen seen = flood_beside(100, std::chrono::seconds(0));
     tell(seen);
     EXPECT_EQ(seen.lost, 0u);
@@ -175,7 +175,7 @@ TEST_F(RequestFlood, BesideAHundredStopsFillsNeitherDiskNorMemoryAndStopIsHeard)
 }
 
 /// The duration is MOTIONRACK_FLOOD_SECONDS if set.
-TEST_F(RequestFlood, OfAMinuteFillsNeitherDiskNorMemoryAndStopIsHeard) {
+TEST_F(RequestFlood, OfAMinuteFillsNeitherDiskNorMemoryAndStopIsExecuted) {
     const Seen seen = flood_beside(0, std::chrono::seconds(from_environment("MOTIONRACK_FLOOD_SECONDS", 60)));
     tell(seen);
     EXPECT_EQ(seen.lost, 0u);

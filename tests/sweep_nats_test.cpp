@@ -166,7 +166,7 @@ TEST_F(NatsSweep, GathererAndServerMayBeKilledToo) {
     EXPECT_EQ(text_of(folder / "out.csv"), local_table());
 }
 
-TEST_F(NatsSweep, RowsThatCameWhileNobodyGatheredAreTaken) {
+TEST_F(NatsSweep, AcceptsRowsThatCameWithoutACoordinator) {
     auto gather = gatherer();
     auto one = worker("one");
     while (gather->runs() && rows() < 3) {

@@ -126,7 +126,7 @@ TEST_F(SweepCommand, RefusesTablesOfFormerVersions) {
     EXPECT_THAT(refused("former.h5"), HasSubstr("The table has format 1, as motionrack "));
 }
 
-TEST_F(SweepCommand, TellsWhatRunTells) {
+TEST_F(SweepCommand, PrintsTheReportOfRun) {
     const std::string csv = table("sweep.toml -o out.csv");
     const std::vector<std::string> lines = lines_of(csv);
     EXPECT_THAT(lines[0],
@@ -154,7 +154,7 @@ TEST_F(SweepCommand, TakesNoRowsOfAnotherProgramRackOrValue) {
     EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv --restart").out, Not(HasSubstr("before")));
 }
 
-TEST_F(SweepCommand, EndsOnRequestAndSaysHowToContinue) {
+TEST_F(SweepCommand, EndsOnRequestAndStatesHowToContinue) {
     EXPECT_EQ(signal_after(SIGINT, "examples/sweep/chance.toml -o out.csv --jobs 1", 5), 130);
     EXPECT_THAT(
         text_of(folder / "said.txt"),

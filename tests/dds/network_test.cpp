@@ -293,7 +293,7 @@ TEST_F(Network, CardsOfARackOnAnotherMachineHoldTheFrames) {
     EXPECT_EQ(feed.last()["cards"][0]["bad"], 0);
 }
 
-TEST_F(Network, SaysThatNoFrameCame) {
+TEST_F(Network, ReportsThatNoFrameCame) {
     Child subscriber = network_->start(
         0, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "nobody", "--json", "--duration", "0.1"});
     EXPECT_EQ(subscriber.finish(), 4);

@@ -96,7 +96,7 @@ class WithoutMemory : public InFolder, public testing::WithParamInterface<Task> 
     }
 };
 
-TEST_P(WithoutMemory, ACommandSaysSoAndLeavesNothingBroken) {
+TEST_P(WithoutMemory, ACommandReportsItAndLeavesNothingBroken) {
     const Ran first = run_on("0");
     ASSERT_EQ(first.code, 0) << first.out;
     const std::int64_t count = std::atoll(text_of(folder / "count").c_str());

@@ -105,7 +105,7 @@ TEST(FaultCatalogue, HasNoRowThatNoTestRuns) {
         EXPECT_EQ(elsewhere, !one.point.test.empty()) << one.name() << " names a test, or is run here";
         const bool given = one.fault.setup.by == "program";
         const std::string own = given ? "Catalogue/GivenProgram.IsRefusedOrExecutedByARun/"
-                                      : "Catalogue/InjectedFault.DoesWhatTheCatalogueSays/";
+                                      : "Catalogue/InjectedFault.DoesWhatTheCatalogueStates/";
         const std::string test = elsewhere ? one.point.test : own + one.name();
         EXPECT_NE(tests.find("\n" + test + "\n"), std::string::npos)
             << "ctest -L fault runs no " << test << ", which is to run " << one.name();

@@ -50,7 +50,7 @@ TEST(FaultCoverage, NamesRowsOfTheCatalogue) {
             for (const std::string& row : fault.rows) EXPECT_TRUE(rows.count(row)) << fault.id << ": " << row;
 }
 
-TEST(FaultCoverage, TriesEachFaultAtTwoPointsAloneAndServedOrSaysWhyNot) {
+TEST(FaultCoverage, TriesEachFaultAtTwoPointsAloneAndServedOrStatesWhyNot) {
     for (const CoverageSection& section : coverage())
         for (const CoveredFault& fault : section.faults) {
             const std::string run = fault.reason + fault.not_tried.run + section.not_tried.run;

@@ -232,7 +232,7 @@ void InjectedFault::run_shell() const {
     EXPECT_EQ(after.code, 0) << "the kept data are wrong: " << one().text(fault().after) << "\n" << after.out;
 }
 
-TEST_P(InjectedFault, DoesWhatTheCatalogueSays) {
+TEST_P(InjectedFault, DoesWhatTheCatalogueStates) {
     const std::string& by = fault().setup.by;
     if (by == "run") return run_program();
     if (by == "home") return home();

@@ -95,7 +95,7 @@ TEST_F(LiveDataboard4002, StopsOnRequest) {
     EXPECT_EQ(*driver->position(), here);
 }
 
-TEST_F(LiveDataboard4002, SaysThatNoCardAnswers) {
+TEST_F(LiveDataboard4002, ReportsThatNoCardAnswers) {
     take_out(1);
     const Result<int> version = driver->connect();
     ASSERT_FALSE(version);

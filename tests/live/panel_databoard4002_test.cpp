@@ -70,7 +70,7 @@ TEST_F(PanelOnADataBoard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_TRUE(alarm(*served).is_null());
 }
 
-TEST_F(PanelOnADataBoard, StopsInTheMidstOfAMoveThatAFunctionWaitsFor) {
+TEST_F(PanelOnADataBoard, StopsDuringAMoveThatAFunctionWaitsFor) {
     begin();
     ASSERT_TRUE(served->send(
         "POST", "call",

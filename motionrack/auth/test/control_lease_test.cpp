@@ -101,7 +101,7 @@ TEST_F(LeaseOfControl, ComesBackToTheUserWhosePageWasLoadedAgain) {
     EXPECT_TRUE(lease.check("a2"));
 }
 
-TEST_F(LeaseOfControl, OfNobodyInParticularIsNotTakenByAnotherOfThem) {
+TEST_F(LeaseOfControl, OfAnUnnamedUserIsNotTakenByAnotherUnnamedUser) {
     ASSERT_TRUE(take("", "a"));
     lease.left("a");
     EXPECT_THAT(take("", "b", false, false).error().message, HasSubstr("another session"));

@@ -15,7 +15,7 @@ TEST(LateLibrary, FindsWhatItHas) {
     EXPECT_EQ(cosine(0), 1);
 }
 
-TEST(LateLibrary, SaysWhatIsMissing) {
+TEST(LateLibrary, ReportsTheMissingFunction) {
     LateLibrary nowhere("libnowhere.so.1");
     EXPECT_NE(nowhere.trouble().find("libnowhere.so.1"), std::string::npos) << nowhere.trouble();
     LateLibrary library("libm.so.6");

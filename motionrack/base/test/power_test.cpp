@@ -60,7 +60,7 @@ TEST(Power, IsExactWhereTheResultIs) {
     EXPECT_EQ(power(0, 3), 0);
 }
 
-TEST(Power, TellsWhatIsNoNumber) {
+TEST(Power, ReportsArgumentsWithoutAResult) {
     EXPECT_TRUE(std::isnan(power(-8, 1.0 / 3)));
     EXPECT_TRUE(std::isnan(power(std::nan(""), 2)));
     EXPECT_TRUE(std::isinf(power(0, -1)));

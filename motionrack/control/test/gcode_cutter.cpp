@@ -183,7 +183,7 @@ TEST(GcodeCutter, NoMoreThanTenThousandStepsWaitForTheNextMove) {
     EXPECT_EQ(read(program + "G40\nM9\n").steps.size(), 9'999u + 2) << "what ends the contour lets them go";
 }
 
-TEST(GcodeCutter, TheLastMoveComesWithoutAnEndOfTheProgram) {
+TEST(GcodeCutter, DeliversTheLastMoveWithoutAProgramEnd) {
     for (const char* end : {"", "G40\n", "M2\n", "%\n", "M30"}) {
         const auto program = read(std::string("%\n") + cutter_preamble + "G42.1 D6\nG1 X20\nG1 X40\n" + end);
         ASSERT_TRUE(program.problems.empty());

@@ -187,7 +187,7 @@ TEST(GcodeFlow, ThatNeverEndsIsStopped) {
     EXPECT_TRUE(problems("o1 repeat [200]\nX1\nX2\no1 endrepeat", settings).empty());
 }
 
-TEST(GcodeFlow, ThatDrillsWithoutEndIsStopped) {
+TEST(GcodeFlow, StopsAProgramThatDrillsWithoutEnd) {
     Settings settings = testing::machine();
     settings.max_steps = 100'000;
     const std::string drills = "F100 G99\no1 repeat [#1]\nG81 X1 Z-1 R1 L1000\no1 endrepeat\nG80\nM2";

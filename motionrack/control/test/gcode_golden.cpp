@@ -111,7 +111,7 @@ std::string mode_lines(const std::string& canon) {
 
 }  // namespace
 
-TEST(GcodeCanon, TellsModesThatAreBroughtBackAsRs274Does) {
+TEST(GcodeCanon, PrintsRestoredModesAsRs274Does) {
     // Up to there rs274 omits a G54 that changes nothing.
     for (const auto& [name, from] :
          {std::pair("overrides", "USE_LENGTH_UNITS"), std::pair("modes_kept", "SET_FEED_RATE(5.0000)")}) {

@@ -114,7 +114,7 @@ TEST(GcodeParameters, OfALineThatIsRefusedAreNotSet) {
     EXPECT_EQ(read.moves().back().end[0], 3);
 }
 
-TEST(GcodeParameters, TellWhereTheMachineIs) {
+TEST(GcodeParameters, ReportWhereTheMachineIs) {
     EXPECT_EQ(x_after("G10 L2 P1 X10\nX5 Y7\nX[#5420 + #5421 + #5221]"), 32);
     EXPECT_EQ(x_after("G20 X1 Y2\nG21 Y[#5420]\nG20 X[#5421 * 2]"), 2 * 25.4);
     EXPECT_EQ(x_after("G55\nX[#5220]"), 2);
@@ -124,7 +124,7 @@ TEST(GcodeParameters, TellWhereTheMachineIs) {
     EXPECT_EQ(x_after("T3 M6\nX#5400"), 3);
 }
 
-TEST(GcodeParameters, TellTheModesByName) {
+TEST(GcodeParameters, ReportTheModesByName) {
     EXPECT_EQ(x_after("G10 L2 P2 X1\nG55 X2 Y3\nX[#<_x> + #<_y> * 10 + #<_abs_x> * 100]"), 333);
     EXPECT_EQ(x_after("X[#<_motion_mode> + #<_metric> + #<_absolute>]"), 2);
     EXPECT_EQ(x_after("G18\nX#<_plane>"), 180);

@@ -75,7 +75,7 @@ TEST(GcodeReader, PathControlGoesWithEachMove) {
     EXPECT_EQ(moves[5].tolerance_mm, 25.4);
 }
 
-TEST(GcodeReader, TellsEventsInTheOrderInWhichTheyTakeEffect) {
+TEST(GcodeReader, ReportsEventsInTheOrderInWhichTheyTakeEffect) {
     const auto program = read("G0 X1 M0 T4 M6 S500 M3 M7 M8 (hello) (MSG,look) G4 P2\nM9 M5\nM1\nM30\nG0 X9");
     const CanonCallKind kinds[] = {
         CanonCallKind::comment,        CanonCallKind::message, CanonCallKind::spindle_speed, CanonCallKind::tool_select,
@@ -139,7 +139,7 @@ TEST(GcodeReader, StartsInG0WhereTheSettingsSaySo) {
     EXPECT_EQ(moves[0].kind, MoveKind::rapid);
 }
 
-TEST(GcodeReader, M2PutsTheStateBackOnceItsMovesAreDone) {
+TEST(GcodeReader, M2ResetsTheModalStateAfterTheMoves) {
     Interpreter interpreter(machine());
     ASSERT_TRUE(interpreter.line("G10 L2 P2 X5", 1));
     ASSERT_TRUE(interpreter.line("G55 G91 G18 G1 X1 F60 M3 M8 M2", 2));

@@ -59,7 +59,7 @@ TEST(GcodePorts, AnInputThatNothingIsConnectedToIsOff) {
             << wait;
 }
 
-TEST(GcodePorts, SayWhetherTheMachineStandsStillForThem) {
+TEST(GcodePorts, StateWhetherTheyNeedAStandstill) {
     const auto read = testing::read("M62 P1\nM67 E1 Q1\nM3 S1\nM49\nM64 P1\nM68 E1 Q1\nM66 P1\n");
     ASSERT_EQ(read.problems.size(), 0u);
     std::string rests;

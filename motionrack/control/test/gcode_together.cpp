@@ -53,7 +53,7 @@ TEST(GcodeTogether, AProbeDecidesWhichLinesComeNext) {
     EXPECT_EQ(ends[2][2], -2.25);  // program -7.25
 }
 
-TEST(GcodeTogether, AMissTellsOfTheEndInTheProgramsOwnUnitsAndTurn) {
+TEST(GcodeTogether, AMissReportsTheEndInTheUnitsAndRotationOfTheProgram) {
     const auto ends = probing_at(
         "G21 G90 F100\nG10 L2 P1 X3 R90\nG20 F4\nG38.3 Z-1\nG21\nG10 L2 P1 X0 R0\nG0 X#5063 Y[#5062 * 25.4] Z#5070\n",
         -100);

@@ -159,7 +159,7 @@ double left_at(const std::vector<Moved>& moves, std::size_t count, double along)
 
 }  // namespace
 
-RC_GTEST_PROP(GcodeTurning, NeverCutsIntoWhatIsToBeLeftAndTakesNoMoreThanIAtOnceAndNeverRapidsThroughThePiece, ()) {
+RC_GTEST_PROP(GcodeTurning, NeverCutsIntoTheAllowanceNorDeeperThanIAtOnceNorRapidsThroughThePiece, ()) {
     const auto contour = random_contour(true, 30);
     LatheCycle plan;
     plan.start = {-2, top};

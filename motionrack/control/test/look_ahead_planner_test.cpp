@@ -75,7 +75,7 @@ TEST(LookAheadPlanner, TheSlowestAxisLimitsADiagonal) {
     EXPECT_DOUBLE_EQ(out[0].accel, 750);            // 600 / 0.8 in Y, 1000 / 0.6 in X
 }
 
-TEST(LookAheadPlanner, InverseTimeTakesTheTimeItSays) {
+TEST(LookAheadPlanner, InverseTimeTakesTheProgrammedTime) {
     Move move = path_line_to(10, 0);
     move.feed_mode = FeedMode::inverse_time;
     move.feed = 2;

@@ -106,7 +106,7 @@ TEST(FramePublisher, EndsWithTheSourceOrTheCountOrTheStop) {
     }
 }
 
-TEST(FramePublisher, TellsWhatStoppedTheSource) {
+TEST(FramePublisher, ReportsWhatStoppedTheSource) {
     CountingPublisher publisher;
     CountingSource source;
     source.broken = 5;

@@ -224,7 +224,7 @@ TEST_F(FrameValidatorTest, NeverUsesDamagedFrames) {
     EXPECT_EQ(kinds, 4) << "each kind is told once a second";
 }
 
-TEST_F(FrameValidatorTest, LetsNobodyInWhoseNIsNotTheExpectedOne) {
+TEST_F(FrameValidatorTest, RejectsSourcesWithAnUnexpectedN) {
     judge = FrameValidator({.words = 8});
     EXPECT_EQ(hear(10), Validation::wrong_words);
     EXPECT_FALSE(judge.joined());

@@ -279,7 +279,7 @@ TEST(RawCapture, TakesTheLineThatSigrokPutsBeforeTheSamples) {
     EXPECT_DOUBLE_EQ(analysis->channels[0].seconds, 2e-6);
 }
 
-TEST(RawCapture, SaysWhatIsMissing) {
+TEST(RawCapture, ReportsWhatIsMissing) {
     EXPECT_TRUE(has(refusal("abc", "a.bin", {"X=0,1"}), "--sample-rate 24M"));
     EXPECT_TRUE(has(refusal("abc", "a.bin", {}, {Format::automatic, 1e6, 1}), "--channel"));
     EXPECT_TRUE(has(refusal("abc", "a.bin", {"X=0,9"}, {Format::automatic, 1e6, 1}), "no line '9'"));
@@ -321,7 +321,7 @@ TEST(Channels, AreRefusedWithTheLinesThereAre) {
     EXPECT_TRUE(has(choose_channels({"p", "q"}, {}).error().message, "--channel"));
 }
 
-TEST(SampleRate, IsReadAsPeopleWriteIt) {
+TEST(SampleRate, AcceptsTheUsualNotations) {
     for (const char* text : {"24000000", "24M", "24 MHz", "24000k", "2.4e7", "0.024 GHz"})
         EXPECT_DOUBLE_EQ(read_rate(text).value(), 24e6) << text;
     for (const char* text : {"", "M", "24X", "-1", "0", "nan", "1e300", "inf"}) EXPECT_FALSE(read_rate(text)) << text;

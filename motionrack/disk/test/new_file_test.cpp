@@ -52,7 +52,7 @@ TEST_F(AtomicFile, TakesItsNameWhenItIsWhole) {
     EXPECT_EQ(static_cast<int>(fs::status(at("b")).permissions()), 0600);
 }
 
-TEST_F(AtomicFile, ThatIsNotCommittedLeavesWhatWasThere) {
+TEST_F(AtomicFile, ThatIsNotCommittedLeavesTheOldFile) {
     put(at("a"), "old");
     {
         auto file = NewFile::create(at("a"));
@@ -68,7 +68,7 @@ TEST_F(AtomicFile, ThatIsNotCommittedLeavesWhatWasThere) {
     EXPECT_EQ(text_of(at("a.incomplete")), "half");
 }
 
-TEST_F(AtomicFile, SaysWhyItIsNotWritten) {
+TEST_F(AtomicFile, ReportsWhyItIsNotWritten) {
     const auto reason = [](const std::string& path) { return NewFile::create(path).error().message; };
     EXPECT_EQ(reason(at("nowhere/a")), "No such file or directory");
     EXPECT_EQ(reason(folder_.string()), "Is a directory");

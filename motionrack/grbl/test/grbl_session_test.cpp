@@ -109,7 +109,7 @@ TEST(GrblPort, ForgetsWhatWaitedInAHoldAtAResetAndKeepsItsPosition) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));
 }
 
-TEST(GrblPort, AlarmsAtAResetInMotionAndBrakes) {
+TEST(GrblPort, RaisesAnAlarmAndDeceleratesOnAResetInMotion) {
     Bench b(three_axes());
     b.ask("G1 X100 F3000\n", 0.5);
     const double place = b.axis(0);
@@ -266,7 +266,7 @@ TEST(MachineWithHomeSwitches, IsHomedAndAnswersThen) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|MPos:1"));
 }
 
-TEST(MachineWithHomeSwitches, AlarmsWhenItsHomingIsBrokenOff) {
+TEST(MachineWithHomeSwitches, RaisesAnAlarmWhenHomingIsInterrupted) {
     Bench b(router());
     b.ask("$H\n", 0.5);
     EXPECT_EQ(b.ask("\x18", 0.5), "ALARM:6\r\nok\r\n" + banner + unlock);
@@ -291,7 +291,7 @@ TEST(MachineWithHomeSwitches, AlarmsWhenItFindsNoSwitch) {
 
 const std::string with_limits = "[axis.X.switches]\nlimit_minus_mm = -2\nlimit_plus_mm = 302\n";
 
-TEST(GrblPort, AlarmsAtALimitSwitchAndHearsOnlyAReset) {
+TEST(GrblPort, RaisesAnAlarmAtALimitSwitchAndAcceptsOnlyAReset) {
     Bench b(three_axes(with_limits));
     b.ask("G1 X100 F3000\n", 0.5);
     ASSERT_TRUE(b.machine->wires().force("X.limit_plus", 0));

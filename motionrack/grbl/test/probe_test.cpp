@@ -8,7 +8,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(GrblProbe, TellsWhereItTouchedBeforeTheAnswer) {
+TEST(GrblProbe, ReportsTheContactPositionBeforeTheAnswer) {
     Bench b(with_probe("x_min_mm = 20.123\n"));
     // 640 pulses per mm: 20.123 mm is pulse 12879.
     EXPECT_EQ(b.ask("G38.2 X50 F600\n", 4), "[PRB:20.123,0.000,0.000:1]\r\nok\r\n");

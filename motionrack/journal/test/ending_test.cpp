@@ -71,7 +71,7 @@ TEST_F(JournalFile, RemovesEntriesBeyondTheNewestMillionAtItsStart) {
     EXPECT_EQ(left.begin()->first, 6);
 }
 
-TEST(FileWatch, NoticesThatWhatWasAddedSinceItsStartIsGone) {
+TEST(FileWatch, DetectsThatAFileAddedSinceItsStartIsGone) {
     const std::string path = testing::TempDir() + "file_watch_" + std::to_string(::getpid());
     std::ofstream(path) << "begun";
     FileWatch watch;

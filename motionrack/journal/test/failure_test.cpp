@@ -36,7 +36,7 @@ class JournalOnABadDisk : public JournalFile {
     }
 };
 
-TEST_F(JournalOnABadDisk, ThatIsFullSaysSoAndHasNoCleanEnd) {
+TEST_F(JournalOnABadDisk, ThatIsFullReportsItAndHasNoCleanEnd) {
     auto journal = open();
     journal->keep("machine", "X 7");
     EXPECT_EQ(write(*journal, "state", "fits"), 1);

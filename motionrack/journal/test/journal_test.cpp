@@ -123,7 +123,7 @@ TEST_F(JournalFile, RefusesAVersionThatItDoesNotKnow) {
     EXPECT_NE(refused.error().message.find("version 9"), std::string::npos) << refused.error().message;
 }
 
-TEST_F(JournalFile, SaysWhenTheDiskDoesNotTakeIt) {
+TEST_F(JournalFile, ReportsADiskThatRefusesIt) {
     auto journal = open();
     EXPECT_EQ(write(*journal, "state", "fits"), 1);
     sqlite3* other = nullptr;

@@ -107,7 +107,7 @@ RC_GTEST_PROP(LivePort, MovesOneByteAtThePortsPlaceAndNoOthers, ()) {
     RC_ASSERT(bytes_of(path) == expected);
 }
 
-TEST(LivePort, SaysThatItsRegistersHaveAnotherWidth) {
+TEST(LivePort, ReportsThatItsRegistersHaveAnotherWidth) {
     const Folder folder;
     const std::string path = folder.file("card", std::string(64, '\0'));
     const auto port = ByteCardPort::open(*read_port_spec("memory:" + path), four);
@@ -116,7 +116,7 @@ TEST(LivePort, SaysThatItsRegistersHaveAnotherWidth) {
     EXPECT_THAT(refusal("memory:" + path, three_card), HasSubstr("not words of 16 bits"));
 }
 
-TEST(LivePort, SaysThatAWordIsNotAtAnOddAddress) {
+TEST(LivePort, ReportsThatAWordIsNotAtAnOddAddress) {
     const Folder folder;
     const std::string path = "memory:" + folder.file("card", std::string(64, '\0'));
     EXPECT_THAT(refusal(path + ",offset=3"), HasSubstr("offset is 3, but registers of 16 bits are at even addresses"));
@@ -143,7 +143,7 @@ TEST(LivePort, ReportsAMissingFile) {
                     HasSubstr("/dev/uio-that-is-not does not exist"));
 }
 
-TEST(LivePort, SaysThatAFileIsTooShortAndByHowMuch) {
+TEST(LivePort, ReportsThatAFileIsTooShortAndByHowMuch) {
     const Folder folder;
     const std::string path = folder.file("card", std::string(9, '\0'));
     for (const char* kind : {"memory:", "port:"}) {
@@ -154,7 +154,7 @@ TEST(LivePort, SaysThatAFileIsTooShortAndByHowMuch) {
     }
 }
 
-TEST(LivePort, SaysWhoMayNotOpenAFileAndTheRemedy) {
+TEST(LivePort, ReportsMissingRightsToOpenAFileAndTheRemedy) {
     const Folder folder;
     const std::string path = folder.file("card", std::string(64, '\0'));
     std::filesystem::permissions(path, std::filesystem::perms::none);
@@ -169,7 +169,7 @@ TEST(LivePort, SaysWhoMayNotOpenAFileAndTheRemedy) {
     EXPECT_THAT(sentence, HasSubstr("udev rule"));
 }
 
-TEST(LivePort, SaysThatAFileCannotBeMapped) {
+TEST(LivePort, ReportsThatAFileCannotBeMapped) {
     EXPECT_THAT(refusal("memory:/dev/null"), HasSubstr("/dev/null cannot be mapped"));
     const Folder folder;
     EXPECT_THAT(refusal("memory:" + folder.path()), HasSubstr("is a folder"));
@@ -297,7 +297,7 @@ TEST(LivePort, ItsClockNeverWaitsTooShort) {
     }
 }
 
-TEST(LivePort, ItsClockCanWaitForAFileForEver) {
+TEST(LivePort, ItsClockCanWaitForAFileWithoutTimeout) {
     int ends[2];
     ASSERT_EQ(::pipe(ends), 0);
     ASSERT_EQ(::write(ends[1], "x", 1), 1);

@@ -43,7 +43,7 @@ TEST(LivePortSpec, InterruptsOfAUioNodeCanBeSwitchedOff) {
     EXPECT_EQ(spec->interrupt, "");
 }
 
-TEST(LivePortSpec, SaysWhatIsWrongAndTheForm) {
+TEST(LivePortSpec, ReportsTheErrorAndTheForm) {
     const std::pair<const char*, const char*> cases[] = {
         {"", "it has no ':'"},
         {"/dev/uio0", "it has no ':'"},

@@ -144,7 +144,7 @@ TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
     EXPECT_FALSE(prepare(job_of("[drawing]\ntext = 'A'\n[optics]\nct5 = 'x.ct5'\n"), one_file("no table")));
 }
 
-TEST(MarkJob, ACorrectionFileIsCheckedAndWhatIsNotKnownOfItIsReported) {
+TEST(MarkJob, ChecksACorrectionFileAndReportsItsUnknownParts) {
     const MarkingJob job = job_of("[drawing]\ntext = 'A'\n[optics]\nct5 = 'x.ct5'\n");
     rtc5::CorrectionFile table = rtc5::one_to_one();
     const auto file = [&](std::int32_t k, std::int32_t program, std::initializer_list<std::size_t> turned) {

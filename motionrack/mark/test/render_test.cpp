@@ -99,7 +99,7 @@ TEST(Plot, PutsTheMiddleOfTheBoxInItsMiddleAtOneScale) {
     EXPECT_DOUBLE_EQ(plot.y(0) - plot.y(1), 16) << "Y is up";
 }
 
-TEST(Plot, ThinsWhatNobodySeesAndCutsWhatIsOutside) {
+TEST(Plot, ThinsInvisibleDetailsAndClipsAtTheEdge) {
     const Plot plot({{0, 0}, {10, 10}}, 200, 200, 0);
     std::vector<StrokePoint> line = {{{-1e6, 5}, true}};
     for (int i = 0; i <= 1000; ++i) line.push_back({{i * 0.01, 5 + 1e-4 * (i % 2)}, false});
@@ -109,7 +109,7 @@ TEST(Plot, ThinsWhatNobodySeesAndCutsWhatIsOutside) {
     EXPECT_EQ(plot.strokes(apart, "x"), "<path class=\"x\" d=\"M20 180L40 180M60 180L80 180\"/>\n");
 }
 
-TEST(MarkWarning, ComesBeforeTheFieldOverflowsAndSaysHowMuchIsLeft) {
+TEST(MarkWarning, ComesBeforeTheFieldOverflowsAndReportsHowMuchIsLeft) {
     EXPECT_TRUE(warnings_of(shown(belt_job + "[fly]\nmode = 'encoder'\n").out).empty());
     const Shown near =
         shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nvelocity_mm_s = 720\n[fly]\nmode = 'encoder'\n");
@@ -135,7 +135,7 @@ TEST(MarkReport, HasPicturesTablesChartsAndTheJobInOneFile) {
     for (const char* fetched : {"src=", "href=\"http", "url(", "@import"}) EXPECT_THAT(page, Not(HasSubstr(fetched)));
 }
 
-TEST(MarkReport, TellsEveryOverflow) {
+TEST(MarkReport, ReportsEveryOverflow) {
     const Shown s =
         shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nvelocity_mm_s = 900\n[fly]\nmode = 'encoder'\n");
     const trace::ReportData data = report_of(s.job, s.prepared, s.out, s.text);

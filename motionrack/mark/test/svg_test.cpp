@@ -103,7 +103,7 @@ TEST(SvgReader, WhatItCannotDrawIsRefusedWithItsPlace) {
     EXPECT_THAT(refusal(""), HasSubstr("not XML"));
 }
 
-TEST(SvgReader, WhatAStyleSaysCountsAsMuchAsAnAttribute) {
+TEST(SvgReader, AStyleCountsAsMuchAsAnAttribute) {
     EXPECT_THAT(refusal("<svg><path\nstyle='fill:none; stroke-dasharray: 1,2 !important' d='M0 0L1 1'/></svg>"),
                 HasSubstr("d.svg:2:8: stroke-dasharray in a style of path"));
     EXPECT_THAT(refusal("<svg><g style='clip-path:url(#c)'><path d='M0 0L1 1'/></g></svg>"),
@@ -122,7 +122,7 @@ TEST(SvgReader, WhatAStyleSaysCountsAsMuchAsAnAttribute) {
               1u);
 }
 
-TEST(SvgReader, DrawsWhatIsVisible) {
+TEST(SvgReader, DrawsVisibleElementsOnly) {
     EXPECT_TRUE(read("<svg><g style='display : none'><text/></g><path visibility='hidden' d='M0 0L1 1'/></svg>")
                     .strokes.empty());
     EXPECT_EQ(

@@ -45,7 +45,7 @@ TEST(Waits, EveryPieceIsInTheFieldFromItsWayOn) {
     }
 }
 
-TEST(Waits, WhatIsShorterThanAQuarterOfTheFieldStaysInOnePiece) {
+TEST(Waits, StrokesShorterThanAQuarterOfTheFieldAreNotDivided) {
     const Drawing circle = *read_svg("<svg><circle cx='-100' cy='0' r='14'/></svg>", "s");
     const std::vector<WaitBatch> batches = *batches_of(circle, {{-59, -59}, {59, 59}}, {1, 0});
     ASSERT_EQ(batches.size(), 1u);

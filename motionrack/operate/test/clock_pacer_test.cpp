@@ -52,7 +52,7 @@ TEST(ClockPacer, HasTimeGoFasterAndSlower) {
     }
 }
 
-TEST(ClockPacer, WaitsInPartsSoThatEverybodyIsHeard) {
+TEST(ClockPacer, WaitsInPartsSoThatEveryCommandIsProcessed) {
     SleepingClock clock;
     ClockPacer pacer(clock, ClockMode::real, 0.01);
     EXPECT_EQ(let_on(pacer, milliseconds(0)), 1);
@@ -114,7 +114,7 @@ TEST(ClockPacer, RejectsInvalidFactorsAndSteps) {
     EXPECT_FALSE(pacer.step(whole_seconds(3601)));
 }
 
-TEST(Lateness, TellsHowManyWereHowLate) {
+TEST(Lateness, CountsLateEventsByTheirLateness) {
     Lateness lateness;
     EXPECT_EQ(lateness.within(0.99), Duration{0});
     for (int i = 1; i <= 1000; ++i) lateness.add(microseconds(i));

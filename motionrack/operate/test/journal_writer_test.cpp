@@ -208,7 +208,7 @@ TEST_F(JournalWriterTest, AfterAKillItKnowsWhatRanAndWhereAndNoPositionIsValid) 
     EXPECT_FALSE(machine->begin_program("G0 X1\nM30\n", "again.ngc"));
 }
 
-TEST_F(JournalWriterTest, TellsAlarmsSettingsAndInvalidPositions) {
+TEST_F(JournalWriterTest, ReportsAlarmsSettingsAndInvalidPositions) {
     open();
     run(
         {}, [](const Status& s) { return s.axes[0].commanded > 50; },

@@ -26,7 +26,7 @@ TEST(Machine, DrivesAProgramToItsEnd) {
     EXPECT_THAT(o.events, testing::Contains(control::gcode::CanonCallKind::end));
 }
 
-TEST(Machine, TellsNoLineOfTheProgramBeforeWhenAnotherBegins) {
+TEST(Machine, ReportsNoLineOfThePreviousProgramWhenAnotherBegins) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X30\nG1 X20\n", "first.ngc")); });
     o.at(5, [](Machine& m) {
@@ -49,7 +49,7 @@ TEST(Machine, BeginsAProgramAtAPercentSignAfterBlankLines) {
     EXPECT_NEAR(o.x(), 30, 0.5 / 640);
 }
 
-TEST(Machine, DrivesAProgramWithLoopsAndSubprogramsAndTakesPlainLinesAfterIt) {
+TEST(Machine, ExecutesAProgramWithLoopsAndSubprogramsAndThenAcceptsPlainLines) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_TRUE(
@@ -119,7 +119,7 @@ TEST(Machine, DrivesTheNextLineAfterAStopInAPause) {
     EXPECT_NEAR(o.x(), 12, 1e-3);
 }
 
-TEST(Machine, TellsTheLineAtWhichItWaits) {
+TEST(Machine, ReportsTheLineAtWhichItWaits) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("(cold)\nM0\nG1 X11 F600\n", "cold.nc")); });
     o.at(0.5, [](Machine& m) {
@@ -323,7 +323,7 @@ TEST(Machine, JogsNeitherPastItsTravelNorWithoutASpeed) {
     EXPECT_DOUBLE_EQ(o.x(), 10);
 }
 
-TEST(Machine, TellsSpindleAndCoolantWhenTheProgramHasPassedTheirWords) {
+TEST(Machine, ReportsSpindleAndCoolantWhenTheProgramHasPassedTheirWords) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X30\nM3 S900 M8\nG1 X50\nM2\n", "p")); });
     o.at(0.5, [](Machine& m) { EXPECT_EQ(m.status().spindle, control::gcode::Spindle::off); });
@@ -349,7 +349,7 @@ TEST(Machine, TakesPlacesDeclaredForSeveralAxesAtOnce) {
     }
 }
 
-TEST(Machine, TellsWhereTheOtherAxesStandWhileOneIsJogged) {
+TEST(Machine, ReportsThePositionsOfTheOtherAxesWhileOneIsJogged) {
     Operated o(two_axes());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 50)); });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 20, 20)); });

@@ -47,7 +47,7 @@ TEST(Machine, PressedToAnEmergencyStopHasNoValidPositionAndNeedsAReset) {
     o.run(5);
 }
 
-TEST(Machine, SaysWhenTheEmergencyStopIsPressedAtAStandstill) {
+TEST(Machine, ReportsWhenTheEmergencyStopIsPressedAtAStandstill) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
     o.run(1);

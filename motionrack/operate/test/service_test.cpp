@@ -204,7 +204,7 @@ TEST(Service, IsBegunByACallToACardThatNothingDrives) {
                                         "m. End that service first."}));
 }
 
-TEST(Service, CallsOneFunctionAtATimeAndHearsOrdersWhileItWaits) {
+TEST(Service, CallsOneFunctionAtATimeAndExecutesCommandsWhileItWaits) {
     Served o;
     o.drive_x();
     o.call(0.35, "wait", {{"axis", 1}, {"milliseconds", 60'000}});

@@ -133,7 +133,7 @@ TEST(OperatedServoAxis, IsUsableAgainWhereLinesAndHoldsCameWhileItsHungCardRefus
     }
 }
 
-TEST(OperatedServoAxis, IsToldWhereItWasDeclaredToStand) {
+TEST(OperatedServoAxis, HasTheDeclaredPosition) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     double reported = 0;
@@ -147,7 +147,7 @@ TEST(OperatedServoAxis, IsToldWhereItWasDeclaredToStand) {
     EXPECT_NEAR(o.x(), 120, 0.3);
 }
 
-TEST(OperatedServoAxis, CountsOnWhenItIsPushedBeforeItsCardHasHeardWhereItStands) {
+TEST(OperatedServoAxis, ContinuesCountingWhenPushedBeforeItsCardKnowsThePosition) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) {
         EXPECT_TRUE(m.set_position('X', 100));

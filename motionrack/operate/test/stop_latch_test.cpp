@@ -100,7 +100,7 @@ TEST(StopLatch, HoldsAMachineThatWaitsForTheNextLine) {
     expect_latched_until_reset(o, 20);
 }
 
-TEST(StopLatch, IsSetByTheStopOrderToo) {
+TEST(StopLatch, IsSetByTheStopCommand) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nG4 P5\nG1 X80\n", "p")); });
     o.at(2, [](Machine& m) { m.stop(); });

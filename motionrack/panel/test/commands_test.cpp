@@ -130,7 +130,7 @@ TEST(Operator, SeesAnAlarmAcknowledgesItAndResets) {
 }
 
 /// A client that streams lines without reading answers would continue after the dropped lines.
-TEST(Stop, OfAnotherEndsControlAndSaysWhoItWas) {
+TEST(Stop, OfAnotherUserEndsControlAndNamesThatUser) {
     Asked a(two_axes());
     std::vector<std::string> stops;
     a.panel->on_event([&](const Event& event) {

@@ -111,7 +111,7 @@ TEST(JournalThatFails, HoldsTheMachineAndLetsNothingBegin) {
     EXPECT_FALSE((*opened)->close());
 }
 
-TEST(Event, TellsWhatThePartsOfTheMachineReport) {
+TEST(Event, CarriesTheReportsOfThePartsOfTheMachine) {
     Asked a(two_axes());
     std::vector<std::string> reported;
     a.panel->on_event([&](const Event& event) {

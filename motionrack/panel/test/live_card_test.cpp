@@ -40,7 +40,7 @@ std::string live_text(const json& all, const char* list) {
     return out;
 }
 
-TEST(RealCardOnThePage, SaysWhereItIsAndShowsNothingOfTheVirtualOne) {
+TEST(RealCardOnThePage, ReportsItsAddressAndShowsNothingOfTheVirtualOne) {
     Asked a(with_bench(), {}, with_live());
     a.at(0.1, eve, "rack", json::object(), [](const Answer& answer) {
         const json& cards = answer.body["cards"];

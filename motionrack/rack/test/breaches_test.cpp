@@ -63,7 +63,7 @@ TEST(JumpWatch, FindsNothingInLooksThatAreTooRare) {
     EXPECT_EQ(sample_jump([](double t) { return std::min(t, 0.2) * 55'000; }, times, milliseconds(5)).hz, 0);
 }
 
-TEST(Breach, IsKeptOnceAnAxisWithItsWorstAndToldInASentence) {
+TEST(Breach, IsKeptOnceAnAxisWithItsMaximumAndReportedInASentence) {
     Breaches breaches;
     Breach jump;
     jump.axis = 0;

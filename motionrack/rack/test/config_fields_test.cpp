@@ -184,7 +184,7 @@ TEST(RackTemplate, NamesTheTemplatesIfThereIsNoSuchOne) {
     EXPECT_THAT(text.error().message, HasSubstr("router, stage, single, carriage, marking; did you mean 'router'?"));
 }
 
-TEST(RackTemplate, SaysOfEveryKeyItsRangeAndDefault) {
+TEST(RackTemplate, StatesRangeAndDefaultOfEveryKey) {
     const std::string router = *rack_template("router"), carriage = *rack_template("carriage");
     for (const FieldCase& c : all_fields()) {
         const bool servo = c.header.find(".servo") != std::string::npos;

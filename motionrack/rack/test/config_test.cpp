@@ -223,7 +223,7 @@ TEST(RackFile, ShowsTwoHundredMistakesAndCountsTheOthers) {
     EXPECT_THAT(reading.errors.back().message, HasSubstr("and 800 more"));
 }
 
-TEST(RackFile, WarnsOfWhatAMachineCanDoButNobodyWants) {
+TEST(RackFile, WarnsOfPossibleButUnwantedSettings) {
     const auto warnings = [](const std::string& more) {
         const RackReading reading = read_rack_text(rack_with(more));
         EXPECT_TRUE(reading.config.has_value()) << all_texts(reading.errors);

@@ -108,7 +108,7 @@ TEST(Databoard4002InARack, HasTheTrimTableThatCameWithIt) {
     EXPECT_THAT(wrong.errors.front().text(), testing::AllOf(HasSubstr("3:"), HasSubstr("Row 2 of the trim table")));
 }
 
-TEST(Databoard4002InARack, QuitKeepsTheTargetWhereItsFileSaysSo) {
+TEST(Databoard4002InARack, QuitKeepsTheTargetWhereItsFileRequiresIt) {
     for (const bool zeroes : {true, false}) {
         Host host(std::string("[card.c1]\ntype = \"databoard4002\"\n") + (zeroes ? "" : "quit_zeroes = false\n"));
         host.out(1, 13);

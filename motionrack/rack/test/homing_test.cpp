@@ -130,7 +130,7 @@ TEST(RackHomes, ThroughAnotherStopInputToo) {
     EXPECT_NEAR(out.axes[1].machine_position, 1, 1e-9);
 }
 
-TEST(RackHomes, StopsWhenAskedAndKeepsWhatWasSeen) {
+TEST(RackHomes, StopsOnRequestAndKeepsTheResultsSoFar) {
     std::atomic<bool> stop{false};
     HomingSettings settings;
     settings.stop = &stop;

@@ -144,7 +144,7 @@ TEST(Rack, AJobRunsOverAnEightBitBus) {
     EXPECT_TRUE(outcome.position_valid);
 }
 
-TEST(Links, AnOpenStepInputLeavesTheMotorStandingAndTheJobSaysSo) {
+TEST(Links, AnOpenStepInputLeavesTheMotorStandingAndTheJobReportsIt) {
     const Ended ended = run_wires("X.step = \"open\"\n", false);
     EXPECT_TRUE(ended.outcome.ended);
     const AxisOutcome& x = ended.outcome.axes[0];

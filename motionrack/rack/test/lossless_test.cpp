@@ -225,7 +225,7 @@ TEST_P(Lossless, AHoldOnAWayBackLeavesNothingOfItOut) {
     }
 }
 
-TEST(Host, ThatComesTooLateIsToldWhereAndHowLate) {
+TEST(Host, ThatIsTooLateIsReportedWithPositionAndDelay) {
     bool late = false;
     const Path path = spiral(0.2, 200);
     RackConfig config = router();

@@ -100,7 +100,7 @@ TEST(MarkingLine, ASquareOnTheMovingPartIsASquareOnlyWithCorrection) {
     }
 }
 
-TEST(MarkingLine, WhatIsMarkedCanBeSeenWhileItRunsAndLooksChangeNothing) {
+TEST(MarkingLine, ShowsTheMarksWhileItRunsWithoutAnEffect) {
     Line looked, other;
     for (Line* bench : {&looked, &other}) {
         bench->square(5184.0 / 1000);

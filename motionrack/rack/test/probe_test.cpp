@@ -193,7 +193,7 @@ std::string bad(const std::string& text) {
     return all_texts(read_rack_text(text).errors);
 }
 
-TEST(Probing, ARackFileSaysWhatIsWrongWithItsProbe) {
+TEST(Probing, ReportsErrorsOfTheProbeInARackFile) {
     EXPECT_THAT(bad("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[probe]\n"),
                 HasSubstr("cannot catch positions"));
     EXPECT_THAT(bad(rack_text("x_min_mm = 5\nx_max_mm = 4\n")), HasSubstr("its first end must be below the other"));

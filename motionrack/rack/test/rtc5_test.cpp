@@ -95,7 +95,7 @@ TEST(Rtc5InARack, AWordOnItsMcbspIsANumberOf32Bits) {
     EXPECT_THAT(bench.session->set_wire("c1.start_n", 70).error().message, HasSubstr("digital"));
 }
 
-TEST(Rtc5InARack, HasNoBusAndTellsWhatItHas) {
+TEST(Rtc5InARack, HasNoBusAndReportsItsInterfaces) {
     Rtc5Bench bench;
     EXPECT_THAT(bench.session->read("c1", 16, 0).error().message, HasSubstr("no registers on a bus"));
     EXPECT_THAT(bench.session->write("c1", 16, 0, 0).error().message, HasSubstr("no registers on a bus"));
@@ -105,7 +105,7 @@ TEST(Rtc5InARack, HasNoBusAndTellsWhatItHas) {
     EXPECT_THAT(bench.session->part("c1.height").error().message, HasSubstr("mark_speed_bits_ms"));
 }
 
-TEST(Rtc5InARack, ACopyContinuesAlikeWithItsTablesAndWhatWasRecorded) {
+TEST(Rtc5InARack, ACopyContinuesAlikeWithItsTablesAndRecordings) {
     Rtc5Bench bench;
     bench.begin();
     bench.put(Op::set_trigger, {1, 7, 8});

@@ -36,7 +36,7 @@ struct Machine {
     control::Axis* axis = nullptr;
 };
 
-TEST(ServoAxis, MovesToPlacesInMmAndSaysWhereItIs) {
+TEST(ServoAxis, MovesToPositionsInMmAndReportsItsPosition) {
     Machine m;
     m.here_is(100);
     for (const double place : {2'560.0, 1'280.0, -150.0, 0.0}) {
@@ -277,7 +277,7 @@ TEST(ServoAxis, AllWaysOfHomingFindTheCamOrTheIndexUnderIt) {
         }
 }
 
-TEST(ServoAxis, AHomingThatFindsNoReferenceSaysSoAndItsPositionIsNotValid) {
+TEST(ServoAxis, AHomingThatFindsNoReferenceReportsItAndItsPositionIsNotValid) {
     for (const char* wires : {"[wires]\n\"board.ref\" = \"open\"\n", "[wires]\n\"board.ref\" = \"X.limit_plus\"\n"}) {
         const RackReading reading = read_rack_text(carriage("", wires));
         ASSERT_TRUE(reading.config);

@@ -88,7 +88,7 @@ TEST(ServoProgram, AMixOfPathsAndPositioningIsRefused) {
 
 // ---- rack files
 
-TEST(ServoRackFile, TellsWhatIsWrong) {
+TEST(ServoRackFile, ReportsWhatIsWrong) {
     const struct {
         std::string text;
         const char* says;

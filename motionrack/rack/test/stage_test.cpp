@@ -65,7 +65,7 @@ TEST(StageSections, AreReadWithTheirDefaults) {
     EXPECT_FALSE(reading.config->stages[1].servo);
 }
 
-TEST(StageSections, SayWhatDoesNotFit) {
+TEST(StageSections, ReportSettingsThatDoNotFit) {
     const std::string stage = cards + "[stage.mask]\ncard = \"second\"\ninput = 2\n";
     const std::pair<std::string, std::string> cases[] = {
         {cards + "[stage.host]\ncard = \"host\"\ninput = 0\n", "'host' cannot be a stage's name"},

@@ -49,7 +49,7 @@ struct SteppedMotor {
     }
 };
 
-RC_GTEST_PROP(DcMotor, MovesAsTheDifferentialEquationSays, ()) {
+RC_GTEST_PROP(DcMotor, MovesAsTheDifferentialEquationRequires, ()) {
     DcMotorSettings s;
     s.time_constant_s = *rc::gen::element(0.002, 0.01, 0.05);
     s.load_inertia_ratio = *rc::gen::element(0.0, 1.0, 9.0);
@@ -134,7 +134,7 @@ struct MotorListener final : sim::PositionListener, sim::EdgeListener {
     int reported = 0;
 };
 
-TEST(DcMotor, TellsAWatchAtTheVeryInstantAndHandsOverEveryEdge) {
+TEST(DcMotor, NotifiesAWatchAtTheExactInstantAndDeliversEveryEdge) {
     MotorRig rig;
     MotorListener listener;
     const int slot = rig.motor.add_listener(listener);

@@ -104,7 +104,7 @@ TEST(Kernel, ABrokenRunEndsAfterTheEventWithEverythingSyncedAndContinuesAfterwar
 
 // ---- Wires
 
-TEST(Kernel, WireChangesAreHeardFirstInFirstOutAtTheirInstant) {
+TEST(Kernel, WireChangesAreDeliveredFirstInFirstOutAtTheirInstant) {
     Kernel kernel;
     Puppet driver, listener;
     const DeviceId d = kernel.add(driver, Phase::cards, "driver");
@@ -142,7 +142,7 @@ TEST(Kernel, WireLevelsSetBeforeTheStartAreHowTheWorldBegins) {
     EXPECT_EQ(scribe.text, "");
 }
 
-TEST(Kernel, AForcedWireKeepsItsLevelUntilItIsReleasedToWhatItsDriverSays) {
+TEST(Kernel, AForcedWireKeepsItsLevelUntilItIsReleasedToItsDriver) {
     Kernel kernel;
     Scribe scribe;
     const WireId a = kernel.add_wire("a", 0);
@@ -178,7 +178,7 @@ struct LazyWorld {
     std::vector<int> heard;
 };
 
-TEST(Kernel, ALazyWireIsAskedOfItsOwnerWhileNobodyWantsItsChanges) {
+TEST(Kernel, ReadsALazyWireFromItsOwnerWhileNobodySubscribes) {
     LazyWorld w;
     EXPECT_TRUE(w.kernel.lazy(w.wire));
     EXPECT_FALSE(w.kernel.wanted(w.wire));
@@ -198,7 +198,7 @@ TEST(Kernel, ALazyWireIsAskedOfItsOwnerWhileNobodyWantsItsChanges) {
     EXPECT_EQ(w.owner.wants, (std::vector<bool>{true, false}));
 }
 
-TEST(Kernel, ALazyWireThatWasForcedGoesBackToWhatItsOwnerSays) {
+TEST(Kernel, ALazyWireThatWasForcedReturnsToTheLevelOfItsOwner) {
     LazyWorld w;
     w.kernel.run_until(Instant{15});
     w.kernel.force(w.wire, 0);
@@ -217,7 +217,7 @@ TEST(Kernel, ALazyWireThatWasForcedGoesBackToWhatItsOwnerSays) {
     EXPECT_EQ(w.kernel.level(w.wire), 0);
 }
 
-TEST(Kernel, FindsWiresByNameOrSaysThatThereIsNone) {
+TEST(Kernel, FindsWiresByNameOrReportsThatNoneExists) {
     Kernel kernel;
     const WireId a = kernel.add_wire("motion.xlmtp", 1);
     EXPECT_EQ(kernel.find_wire("motion.xlmtp"), a);
@@ -254,7 +254,7 @@ TEST(Kernel, AnInverterThatDrivesItselfIsReportedAndNotAnEndlessLoop) {
 
 // ---- Conditions
 
-TEST(Kernel, KeepsTheLatestConditionsAndTellsHowManyAreGone) {
+TEST(Kernel, KeepsTheLatestConditionsAndReportsHowManyAreGone) {
     Kernel kernel;
     Puppet p;
     const DeviceId id = kernel.add(p, Phase::cards, "p");
@@ -322,7 +322,7 @@ TEST(Kernel, ARunFromASnapshotIsTheRunThatWasNotInterrupted) {
     EXPECT_EQ(cut.kernel.conditions().back().a, whole.kernel.conditions().back().a);
 }
 
-TEST(Kernel, ASnapshotRestoredOverAWireChangeThatWasNotYetHeardForgetsIt) {
+TEST(Kernel, ASnapshotRestoredOverAPendingWireChangeDiscardsIt) {
     Kernel kernel;
     Scribe scribe;
     const WireId a = kernel.add_wire("a", 0);
@@ -359,7 +359,7 @@ TEST(Kernel, ASnapshotHasTheWireChangesThatHaveNotReachedTheirListeners) {
     EXPECT_EQ(copy.kernel.state_hash(), first.kernel.state_hash());
 }
 
-TEST(Kernel, TheTraceHashTellsHistoriesApartThatEndAlike) {
+TEST(Kernel, TheTraceHashDistinguishesHistoriesThatEndAlike) {
     auto hash = [](Instant when, int times) {
         Kernel kernel;
         const WireId a = kernel.add_wire("a", 0);

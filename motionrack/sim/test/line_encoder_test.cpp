@@ -287,7 +287,7 @@ RC_GTEST_PROP(LineEncoder, GivesTheSameEventTraceForEqualSeedsAndAfterARestoreWi
     RC_ASSERT(one.kernel.trace_hash() == two.kernel.trace_hash());
 }
 
-RC_GTEST_PROP(LineEncoder, WithoutFaultsItCountsAsTheExactRatioSays, ()) {
+RC_GTEST_PROP(LineEncoder, WithoutFaultsItCountsInTheExactRatio, ()) {
     LineEncoderSettings s;
     s.counts_per_turn = 4 * *rc::gen::inRange(1, 2000);
     s.position_per_turn = *rc::gen::inRange<std::int64_t>(1, 30'000);

@@ -81,7 +81,7 @@ struct ScaleRig {
     int slot;
 };
 
-RC_GTEST_PROP(LinearScale, CountsWhatTheFormulaSays, ()) {
+RC_GTEST_PROP(LinearScale, CountsAsTheFormulaRequires, ()) {
     LinearScaleSettings s;
     s.pitch_pm = *rc::gen::element<std::int64_t>(20'000'000, 512'000, 8'123'457, 1'000'000'000);
     s.interpolation = *rc::gen::element<std::int64_t>(4, 1'024, 4'096, 65'536);
@@ -144,7 +144,7 @@ TEST(LinearScale, CountsAtTwentyMegahertzOverTwoMetresAtNoCost) {
     EXPECT_GT(known, 7'000'000'000);
 }
 
-TEST(LinearScale, TellsAWatchAtTheInstantOfTheEdge) {
+TEST(LinearScale, NotifiesAWatchAtTheInstantOfTheEdge) {
     for (const bool reversed : {false, true}) {
         LinearScaleSettings s;
         s.reversed = reversed;
@@ -170,7 +170,7 @@ TEST(LinearScale, TellsAWatchAtTheInstantOfTheEdge) {
     }
 }
 
-TEST(LinearScale, LinesShowTheCountWhileSomebodyListens) {
+TEST(LinearScale, LinesShowTheCountWhileAListenerIsAttached) {
     LinearScaleSettings s;
     s.pitch_pm = 2'000'000;
     s.interpolation = 400;  // 5 nm
@@ -215,7 +215,7 @@ TEST(LinearScale, LinesAreExactAtTwentyMegahertz) {
     EXPECT_EQ(rig.scale.lost(), 0);
 }
 
-TEST(LinearScale, LosesWhatIsTooFastAndSaysSo) {
+TEST(LinearScale, LosesCountsThatAreTooFastAndReportsIt) {
     LinearScaleSettings s;
     s.max_count_rate = 1e6;  // 4.88 mm/s
     ScaleRig rig(s);

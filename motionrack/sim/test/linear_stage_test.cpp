@@ -52,7 +52,7 @@ struct Stepped {
     }
 };
 
-RC_GTEST_PROP(LinearStage, MovesAsTheDifferentialEquationSays, ()) {
+RC_GTEST_PROP(LinearStage, MovesAsTheDifferentialEquationRequires, ()) {
     LinearStageSettings s;
     s.viscous_friction = *rc::gen::element(0.0, 2.0, 50.0);
     s.coulomb_friction = *rc::gen::element(0.0, 0.3);
@@ -168,7 +168,7 @@ struct RecordingListener final : sim::PositionListener, sim::EdgeListener {
     std::vector<std::int64_t> counts;
 };
 
-RC_GTEST_PROP(LinearStage, TellsAWatchAtTheVeryTick, ()) {
+RC_GTEST_PROP(LinearStage, NotifiesAWatchAtTheExactTick, ()) {
     LinearStageSettings s;
     s.viscous_friction = *rc::gen::element(0.0, 30.0);
     Rig rig(s);

@@ -181,7 +181,7 @@ TEST(Workpiece, MorePointsThanItMayKeepAreCounted) {
     EXPECT_NEAR(piece.length_mm(), 10, 1e-9);
 }
 
-TEST(Workpiece, TheDeviationFromADrawingNamesTheWorstPlaceAndWhatIsMissing) {
+TEST(Workpiece, TheDeviationFromADrawingNamesTheMaximumAndMissingParts) {
     const std::vector<DrawnSegment> square = {
         {{0, 0}, {10, 0}}, {{10, 0}, {10, 10}}, {{10, 10}, {0, 10}}, {{0, 10}, {0, 0}}};
     Workpiece piece;

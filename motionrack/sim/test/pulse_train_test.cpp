@@ -107,7 +107,7 @@ RC_GTEST_PROP(PulseTrain, CountsLevelsEdgesAndCrossingsAreThoseOfACountedClock, 
     RC_ASSERT(edges.empty() || listener.last == count);
 }
 
-TEST(PulseTrain, TellsItsRateAndTheNextEdgeOfItsLine) {
+TEST(PulseTrain, ReportsItsRateAndTheNextEdgeOfItsLine) {
     Kernel kernel;
     Divider divider(kernel);
     RecordingListener listener;

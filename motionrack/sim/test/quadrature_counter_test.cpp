@@ -36,7 +36,7 @@ TEST(QuadratureDecoder, TheIndexLatchesAtItsRisingEdgeAndClearsIfAsked) {
     EXPECT_EQ(d.indices(), 2u);
 }
 
-RC_GTEST_PROP(QuadratureDecoder, CountsFewerEdgesAsTheClosedFormSays, (std::vector<bool> ups)) {
+RC_GTEST_PROP(QuadratureDecoder, CountsFewerEdgesAsTheClosedFormStates, (std::vector<bool> ups)) {
     for (const Edges edges : {Edges::all, Edges::both_of_a, Edges::rising_a})
         for (int first = 0; first < 4 / static_cast<int>(edges); ++first) {
             QuadratureDecoder d(edges, 0, first);

@@ -125,7 +125,7 @@ TEST(VirtualPort, EveryAccessTakesItsTimeAndSlicesAreCalledBetweenRuns) {
     EXPECT_EQ(slices, 10);
 }
 
-TEST(VirtualPort, WaitsForAnInterruptForEverIfItMay) {
+TEST(VirtualPort, WaitsForAnInterruptWithoutTimeoutIfAllowed) {
     World w;
     VirtualPort port(w.kernel, w.card, w.card.id, w.card.interrupt, nanoseconds(250));
     port.write(0, 0);

@@ -19,7 +19,7 @@ Conveyor track_of(std::vector<VelocityPoint> profile) {
     return *Conveyor::make({.profile = std::move(profile)});
 }
 
-TEST(Conveyor, TellsWhenItLeavesARange) {
+TEST(Conveyor, ReportsWhenItLeavesARange) {
     const Conveyor even = track_of({{0, 100}});
     EXPECT_DOUBLE_EQ(even.leaves(0, -1, 5), 0.05);
     EXPECT_DOUBLE_EQ(even.leaves(0.02, -1, 5), 0.05);

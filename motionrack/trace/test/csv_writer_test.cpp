@@ -24,7 +24,7 @@ TEST(CsvWriter, QuotesFieldsAsInRfc4180) {
               "time_s,\"a,b\",\"say \"\"hi\"\"\",\"line\nbreak\"\r\n0.1,-7,plain,\"\"\"\"\r\n");
 }
 
-TEST(CsvWriter, WritesNumbersThatReadBackTheSameAndLeavesOutWhatIsNone) {
+TEST(CsvWriter, WritesNumbersThatReadBackTheSameAndOmitsMissingOnes) {
     const Scratch scratch;
     auto csv = CsvWriter::create(scratch.path("a.csv"), {"a", "b", "c", "d", "e"});
     ASSERT_TRUE(csv);
@@ -60,7 +60,7 @@ TEST(WriteCsv, NamesEveryColumnWithItsUnit) {
               "0.001,0.0125,25,500,,0.001,0.0125,0,-1\r\n");
 }
 
-TEST(WriteEventsCsv, TellsBlocksWarningsWorstDeviationAndStopInOrderOfTime) {
+TEST(WriteEventsCsv, WritesMovesWarningsMaximumDeviationAndStopInOrderOfTime) {
     ReportData data;
     data.seconds = {0, 1, 2};
     data.driven = {{0, 0, 5}, {10, 0, 5}, {10, 4, 5}};
@@ -98,7 +98,7 @@ TEST(CsvWriter, ThatIsDestroyedUnclosedLeavesTheFileThatWasThere) {
     EXPECT_NE(file_text(scratch.path("a.csv.incomplete")).find("half"), std::string::npos);
 }
 
-TEST(CsvWriter, SaysAtTheEndThatTheDiskIsFull) {
+TEST(CsvWriter, ReportsAtTheEndThatTheDiskIsFull) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
     auto csv = CsvWriter::create("/dev/full", {"a"});
     ASSERT_TRUE(csv);

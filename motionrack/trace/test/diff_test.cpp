@@ -59,7 +59,7 @@ TEST(DiffOfRecordings, FindsAMissingPulseAndAWrongValueInTheOrderOfTime) {
     EXPECT_THAT(text, HasSubstr(" ns, tick " + std::to_string(a.samples[20].at)));
 }
 
-TEST(DiffOfRecordings, TellsOfWhatTheyAreMadeAndSignalsOfOneAlone) {
+TEST(DiffOfRecordings, ReportsTheirSourcesAndSignalsOfOneAlone) {
     PlainRecording a = busy(100), b = a;
     b.head.program = "G21 G90\nG1 X2 F600\nM2\n";
     b.head.inputs = {{milliseconds(1), "hold"}};
@@ -162,7 +162,7 @@ Result<Diff> diff_of_texts(const std::string& a, const std::string& b, const std
     return diff_files(scratch.path("a." + ending), scratch.path("b." + ending));
 }
 
-TEST(DiffOfWaves, IsToldWhereAVcdFileIsNone) {
+TEST(DiffOfWaves, ReportsWhereAVcdFileIsInvalid) {
     const std::string head =
         "$timescale 1 ns $end $scope module x $end $var wire 1 ! a $end $upscope $end $enddefinitions $end\n";
     for (const std::string& bad :
@@ -198,7 +198,7 @@ TEST(DiffOfTables, PairsColumnsOfOneNameInTheirOrder) {
     EXPECT_TRUE(diff_of_texts("a,a,b\n1,2,3\n", "a,b,a\n1,3,2\n", "csv")->same());
 }
 
-TEST(DiffOfTables, TellsWhichOneEndsFirst) {
+TEST(DiffOfTables, ReportsWhichOneEndsFirst) {
     const auto diff = diff_of_texts("time_s,a\n0,1\n0.001,2\n", "time_s,a\n0,1\n", "csv");
     ASSERT_TRUE(diff);
     ASSERT_EQ(diff->differences.size(), 1u);

@@ -50,7 +50,7 @@ TEST(Recording, GivesBackMoreThanItsBuffersHold) {
         EXPECT_EQ(events_of(*reader, plain.head.signals[i].name), plain.expected(i)) << i;
 }
 
-TEST(Recording, KeepsWhatWasRunAndWhatCameOfIt) {
+TEST(Recording, KeepsTheProgramAndItsResult) {
     const Scratch scratch;
     PlainRecording plain;
     plain.head.program = "G1 X1\r\n(\xC3\xA9)\n" + std::string(200'000, 'G');
@@ -221,7 +221,7 @@ TEST(Recording, ThatWasCutAnywhereIsReported) {
     }
 }
 
-TEST(Recording, RefusesWhatIsNone) {
+TEST(Recording, RejectsOtherFiles) {
     const Scratch scratch;
     put_bytes(scratch.path("text"), "G1 X1\n");
     put_bytes(scratch.path("empty"), "");
@@ -251,7 +251,7 @@ TEST(Recording, RefusesWhatIsNone) {
     EXPECT_THAT(of_format(recording_format + 1), HasSubstr("or a later one"));
 }
 
-TEST(Recording, TellsWhereItCannotBeMade) {
+TEST(Recording, ReportsWhereItCannotBeCreated) {
     const PlainRecording plain;
     const auto writer = RecordingWriter::create("/nowhere/at/all.h5", plain.head, Instant{0});
     ASSERT_FALSE(writer);
@@ -259,7 +259,7 @@ TEST(Recording, TellsWhereItCannotBeMade) {
     EXPECT_THAT(writer.error().text(), HasSubstr("/nowhere/at/all.h5"));
 }
 
-TEST(Recording, TellsThatTheDiskIsFull) {
+TEST(Recording, ReportsThatTheDiskIsFull) {
     if (::access("/dev/full", W_OK) != 0) GTEST_SKIP();
     const PlainRecording plain = busy(10);
     auto writer = RecordingWriter::create("/dev/full", plain.head, Instant{0});

@@ -75,7 +75,7 @@ std::size_t count(const std::string& text, const std::string& what) {
     return number;
 }
 
-TEST(Report, TellsVerdictNumbersAxesBlocksWarningsAndNotes) {
+TEST(Report, ShowsVerdictNumbersAxesMovesWarningsAndNotes) {
     const std::string page = report_html(circle(1000));
     for (const char* part :
          {"Driven as programmed.", "12.48", "circle.ngc", "bench.toml",
@@ -88,7 +88,7 @@ TEST(Report, TellsVerdictNumbersAxesBlocksWarningsAndNotes) {
     EXPECT_EQ(page.find("{{"), std::string::npos);
 }
 
-TEST(Report, SaysWhereTheMachineWasAtAWarning) {
+TEST(Report, ShowsThePositionOfTheMachineAtAWarning) {
     ReportData data = circle(1001);
     data.warnings = {{3.12, 7, "Quarter"}, {50, 0, "After the end"}, {-1, 0, "No instant"}};
     const std::string page = report_html(data);
@@ -97,7 +97,7 @@ TEST(Report, SaysWhereTheMachineWasAtAWarning) {
     EXPECT_NE(page.find("<td class=\"n\"></td><td class=\"t\">No instant"), std::string::npos);
 }
 
-TEST(Report, SaysWhichLimitsAreOffTheChart) {
+TEST(Report, NamesTheLimitsOutsideTheChart) {
     ReportData data = circle(1000);
     EXPECT_NE(report_html(data).find("limit-words drawn\">limit \xC2\xB1"
                                      "100<"),
@@ -264,7 +264,7 @@ TEST(Report, StaysBelowFourMegabytesWhateverComesIn) {
     EXPECT_EQ(count(page, "data-move="), 2000U);
 }
 
-TEST(Report, SaysThatItCouldNotBeWritten) {
+TEST(Report, ReportsThatItCouldNotBeWritten) {
     const auto written = write_report(circle(10), "/nowhere/at/all.html");
     ASSERT_FALSE(written);
     EXPECT_EQ(written.error().kind, ErrorKind::io);

@@ -20,7 +20,7 @@ VcdWriter open(const std::string& path, const VcdSettings& settings = {}) {
     return std::move(*writer);
 }
 
-TEST(VcdWriter, WritesWiresVectorsAndRealsAsTheStandardSays) {
+TEST(VcdWriter, WritesWiresVectorsAndRealsAsTheStandardStates) {
     const Scratch vcd_scratch;
     VcdWriter vcd = open(vcd_scratch.path("a.vcd"));
     vcd.push_scope("x");
@@ -132,7 +132,7 @@ TEST(VcdWriter, CodesOfThousandsOfWiresAllDiffer) {
     EXPECT_EQ(codes.size(), 20'000U);
 }
 
-TEST(VcdWriter, SaysAtTheEndThatTheDiskIsFull) {
+TEST(VcdWriter, ReportsAtTheEndThatTheDiskIsFull) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
     VcdWriter vcd = open("/dev/full");
     const auto wire = vcd.add_wire("w");
@@ -156,7 +156,7 @@ TEST(VcdWriter, ThatIsDestroyedUnclosedLeavesTheFileThatWasThere) {
     EXPECT_NE(file_text(vcd_scratch.path("a.vcd.incomplete")).find("$var"), std::string::npos);
 }
 
-TEST(VcdWriter, SaysThatAFileCannotBeMade) {
+TEST(VcdWriter, ReportsThatAFileCannotBeCreated) {
     const auto writer = VcdWriter::create("/nowhere/at/all/a.vcd");
     ASSERT_FALSE(writer);
     EXPECT_EQ(writer.error().kind, ErrorKind::io);

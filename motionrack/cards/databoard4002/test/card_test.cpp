@@ -37,7 +37,7 @@ TEST(Databoard4002, ReadyDropsForTheFirmwaresTimeAndAnAccessMeanwhileIsLost) {
     EXPECT_EQ(host.level("relay"), 1) << "O has set the rate, M was lost";
 }
 
-TEST(Databoard4002, TheFirstAccessAfterACommandSaysWhetherItReadsOrWrites) {
+TEST(Databoard4002, TheFirstAccessAfterACommandSelectsReadingOrWriting) {
     Host host;
     host.start();
     host.command('P', 300, 3);
@@ -244,7 +244,7 @@ TEST(Databoard4002, LinesDrivenAsWiresAreCountedByTheirStraps) {
     EXPECT_EQ(host.card.position(), 2);
 }
 
-TEST(Databoard4002, TooQuickAnEncoderLosesCountsAndSaysSo) {
+TEST(Databoard4002, TooQuickAnEncoderLosesCountsAndReportsIt) {
     sim::Kernel kernel;
     sim::FakePulses encoder(kernel, {});
     Host host({}, false, &encoder, &kernel);
@@ -262,7 +262,7 @@ TEST(Databoard4002, TooQuickAnEncoderLosesCountsAndSaysSo) {
     EXPECT_EQ(kernel.conditions()[1].a, 500);
 }
 
-TEST(Databoard4002, ALineThatChangesTooQuicklyLosesCountsAndSaysSo) {
+TEST(Databoard4002, ALineThatChangesTooQuicklyLosesCountsAndReportsIt) {
     Host host({}, false);
     host.start();
     host.set("o1", 1);

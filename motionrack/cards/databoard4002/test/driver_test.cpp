@@ -147,7 +147,7 @@ TEST(Databoard4002Driver, WaitsMayBeEndless) {
     EXPECT_TRUE(patient.connect());
 }
 
-TEST(Databoard4002Driver, TellsWhichStopWasMetAndWhere) {
+TEST(Databoard4002Driver, ReportsWhichStopWasMetAndWhere) {
     for (const Waiting how : {Waiting::polling, Waiting::interrupt}) {
         Rig rig;
         // The stop is reached while the driver waits: a broken wire after 50 ms, detected at the next poll.
@@ -207,7 +207,7 @@ TEST(Databoard4002Driver, AResetWhileItWaitsIsNoticed) {
     EXPECT_FALSE(rig.driver.wait_event(event::POSITION, whole_seconds(1)));
 }
 
-TEST(Databoard4002Driver, SaysThatNoCardAnswers) {
+TEST(Databoard4002Driver, ReportsThatNoCardAnswers) {
     Host host;
     host.start();
     Driver driver(host.port, host.port, {.select = 7});

@@ -59,7 +59,7 @@ TEST_F(Databoard4002Library, HasEachCommandOfTheCard) {
     }
 }
 
-TEST_F(Databoard4002Library, MovesAndTellsWhereItIs) {
+TEST_F(Databoard4002Library, MovesAndReportsItsPosition) {
     EXPECT_EQ(text("set_rate", {thousand_hz}), "Written.");
     EXPECT_EQ(text("move_to", {250, 1000}), "The card is at 250 counts.");
     EXPECT_EQ(text("move_by", {-290, 1000}), "The card is at -40 counts.");
@@ -103,7 +103,7 @@ TEST_F(Databoard4002Library, WritesNothingButTheEndOfItsMoveOnceAStopIsRequested
     EXPECT_EQ(host.card.position(), here);
 }
 
-TEST_F(Databoard4002Library, SaysThatNoCardAnswers) {
+TEST_F(Databoard4002Library, ReportsThatNoCardAnswers) {
     CommandLibrary absent(host.port, time, select + 1);
     const Result<void> begun = absent.begin();
     ASSERT_FALSE(begun);

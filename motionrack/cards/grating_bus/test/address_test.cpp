@@ -153,7 +153,7 @@ TEST(GratingBus, AHostDoesNotGiveTheAddressLaterWhenItHasSeenReadHigh) {
     EXPECT_EQ(crate.cards[0]->counter(Card::alien), 1);
 }
 
-TEST(GratingBus, ASlaveTakesTheAddressesOfTheHostWhateverItsOwnListSays) {
+TEST(GratingBus, ASlaveUsesTheAddressesOfTheHostRegardlessOfItsOwnList) {
     std::vector<CardSettings> settings = crew(2, 3);
     settings[0].addresses = {5, 2, 9};
     settings[1].addresses = {9, 2, 5};

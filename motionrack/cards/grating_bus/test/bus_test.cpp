@@ -47,7 +47,7 @@ TEST_P(GratingBusOf, ManySlavesHaveTheFramesOfTheHostWhichAreTrueAtHold) {
 }
 INSTANTIATE_TEST_SUITE_P(Slaves, GratingBusOf, testing::Values(0, 1, 2, 5, 10, 30));
 
-TEST(GratingBus, AFrameIsTheSameWhoeverLooks) {
+TEST(GratingBus, AFrameDoesNotDependOnItsObservers) {
     for (const int scales : {1, 8, 128}) {
         Crate fast(crew(2, scales), scales), slow(crew(2, scales), scales), turning(crew(2, scales), scales);
         slow.watch_wires();
@@ -74,7 +74,7 @@ TEST(GratingBus, AFrameIsTheSameWhoeverLooks) {
     }
 }
 
-TEST(GratingBus, ThreeHostsDisturbEachOtherAndTheBusSaysWho) {
+TEST(GratingBus, ThreeHostsDisturbEachOtherAndTheBusReportsWhich) {
     std::vector<CardSettings> settings(3, host_settings());
     settings[1].offset = nanoseconds(37);
     settings[2].offset = nanoseconds(1'300);
@@ -146,7 +146,7 @@ TEST(GratingBus, ASlaveOneWordLateSeesThatTheAddressesAreNotItsOwn) {
     EXPECT_EQ(crate.cards[1]->counter(Card::missed_words), 5);
 }
 
-TEST(GratingBus, ASlaveThatMissesEdgesStaysInStepAndSaysSo) {
+TEST(GratingBus, ASlaveThatMissesEdgesStaysInStepAndReportsIt) {
     Crate crate(crew(1));
     crate.run(5 * period - microseconds(50));
     ASSERT_TRUE(crate.cards[1]->fault("miss_edge", 3, crate.kernel.now()));
@@ -284,7 +284,7 @@ TEST(GratingBus, ADecoderThatDoesNotLatchGivesEveryWordAnInstantOfItsOwn) {
     }
 }
 
-TEST(GratingBus, ARemoteCardHoldsWhatComesFromOutsideAndNothingElse) {
+TEST(GratingBus, ARemoteCardHoldsOnlyFramesFromOutside) {
     std::vector<CardSettings> settings = crew(1);
     settings.push_back(slave_settings());
     settings[2].role = CardRole::remote;

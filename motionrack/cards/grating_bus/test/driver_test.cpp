@@ -56,7 +56,7 @@ TEST(GratingCardLibrary, KnowsTheListOfTheCard) {
     EXPECT_EQ(std::vector<int>(slave->addresses().begin(), slave->addresses().end()), (std::vector<int>{5, 2, 9}));
 }
 
-TEST(GratingCardLibrary, TellsWhichScalesAFrameHasAndFollowsEachByItsAddress) {
+TEST(GratingCardLibrary, ReportsTheScalesOfAFrameAndFollowsEachByItsAddress) {
     std::vector<CardSettings> settings = crew(1, 3);
     settings[0].addresses = {5, 2, 9};
     Bench bench(settings, 10);
@@ -112,7 +112,7 @@ TEST(GratingCardLibrary, WaitsForTheNextFrameByItsInterrupt) {
     }
 }
 
-TEST(GratingCardLibrary, SaysThatThereIsNoFrameYetAndThatTheHostIsGone) {
+TEST(GratingCardLibrary, ReportsAMissingFrameAndALostHost) {
     Bench bench(crew(1));
     ASSERT_TRUE(bench.cards[0]->fault("off", 1, bench.kernel.now()));
     EXPECT_THAT(bench.libraries[1]->read().error().message, HasSubstr("no frame yet"));
@@ -153,7 +153,7 @@ TEST(GratingCardLibrary, FollowsAScaleBeyond32Bits) {
     EXPECT_GT(bench.truth(0, last->frame.instant()), std::int64_t{1} << 31);
 }
 
-TEST(GratingCardLibrary, TellsAndClearsWhatWentWrong) {
+TEST(GratingCardLibrary, ReportsAndClearsConditions) {
     Bench bench(crew(1));
     bench.run(2 * driver_period + microseconds(10));
     ASSERT_TRUE(bench.cards[1]->fault("late", 50, bench.kernel.now()));

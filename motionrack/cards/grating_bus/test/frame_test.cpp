@@ -60,7 +60,7 @@ TEST(GratingFrame, IsTheSameWhateverIsBeyondItsWords) {
     EXPECT_FALSE(same(a, b));
 }
 
-TEST(GratingFrame, LastsAsLongAsTheSourceSays) {
+TEST(GratingFrame, LastsAsLongAsTheSourceStates) {
     constexpr BusTiming timing;
     EXPECT_EQ(timing.frame_time(4), nanoseconds(450));
     EXPECT_EQ(timing.frame_time(8), nanoseconds(890));

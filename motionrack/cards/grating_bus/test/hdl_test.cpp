@@ -92,7 +92,7 @@ std::string row_of(const std::string& label, const std::string& top, const std::
     return row + "\n";
 }
 
-TEST(GratingHdl, TakesTheResourcesThatThePageSays) {
+TEST(GratingHdl, UsesTheResourcesStatedOnThePage) {
     if (!thorough()) GTEST_SKIP() << "half a minute of synthesis is for MOTIONRACK_THOROUGH=1 (./test --all seeds)";
     if (std::system("yosys -V 2>/dev/null | grep -q '^Yosys 0.23 '") != 0)
         GTEST_SKIP() << "yosys 0.23 is not installed (Debian package yosys); nothing was synthesized";

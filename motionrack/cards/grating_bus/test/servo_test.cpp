@@ -60,7 +60,7 @@ TEST(ScanProfile, SmallChangesOfSpeedNeverReachTheGreatestAcceleration) {
     check(ScanProfile(0, 1e4, slow), 0.1, slow);
 }
 
-TEST(StepProfile, StepsUpAndDownAndRests) {
+TEST(StepProfile, StepsUpAndDownAndStops) {
     const StepProfile steps(1e6, -2e5, 3, 0.04, limits);
     check(steps, 0.5, limits);
     const double at[] = {1e6, 8e5, 6e5, 4e5, 6e5, 8e5, 1e6, 8e5};

@@ -40,7 +40,7 @@ std::vector<Ticks> entered(const Twin& twin, int card, int state, int other) {
     return out;
 }
 
-TEST(GratingTwin, FramesLastAsLongAsTheSourceSays) {
+TEST(GratingTwin, FramesLastAsLongAsTheSourceStates) {
     for (const auto& [words, lasts] :
          std::vector<std::pair<int, Ticks>>{{1, 120}, {4, 450}, {8, 890}, {16, 1770}, {128, 14'090}}) {
         Twin twin({host(words)}, {decoder(128)});

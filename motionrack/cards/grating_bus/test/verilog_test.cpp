@@ -210,7 +210,7 @@ TEST(GratingVerilog, ReadsAnyListOfAddressesAndHostsWithOtherListsContend) {
     compare({apart, more});
 }
 
-TEST(GratingVerilog, CountsWhatIsWrongAndPublishesOnlyGoodFramesAsTheTwin) {
+TEST(GratingVerilog, CountsErrorsAndPublishesOnlyGoodFramesAsTheTwin) {
     if (no_referee()) GTEST_SKIP() << no_iverilog;
     std::vector<System> systems{{4, 3}, {1, 2}};
     for (const int late : {0, 1, 2, 3, 5, 9, 11, 13, 44}) systems.push_back({4, 5, 500, 3, 3, late});

@@ -100,7 +100,7 @@ TEST(Ioflex02Calibration, CalAndIndexInOneSampleAreNoCalBeforeTheIndex) {
     EXPECT_EQ(rig.card.calibration(0), CalState::calibrated);
 }
 
-TEST(Ioflex02Calibration, ANewCommandReplacesWhatIsPendingOnAllAxes) {
+TEST(Ioflex02Calibration, ANewCommandReplacesPendingCommandsOfAllAxes) {
     Rig rig;
     rig.start();
     rig.write(offset("CMD"), cResNm | cResNm << 2 | cResNmSig << 4 | cResNm << 6);

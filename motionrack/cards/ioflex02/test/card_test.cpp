@@ -201,7 +201,7 @@ TEST(Ioflex02Capture, HasTimeAndFourPositionsOfOneInstant) {
     EXPECT_EQ(rig.card.time(), 5u);  // the two reads took 6 us
 }
 
-TEST(Ioflex02Capture, TellsHowLongAgoTheLastCountWas) {
+TEST(Ioflex02Capture, ReportsTheTimeSinceTheLastCount) {
     Rig rig;
     rig.kernel.start();
     rig.capture();
@@ -280,7 +280,7 @@ TEST(Ioflex02Card, ALongRunWithoutEdgesCostsNoEventAndNothingAllocates) {
     EXPECT_EQ(rig.card.position(0), 20'100);
 }
 
-RC_GTEST_PROP(Ioflex02Card, ThePositionIsWhatTheEncoderTurnedWhateverTheWay, ()) {
+RC_GTEST_PROP(Ioflex02Card, ThePositionEqualsTheEncoderRotationOnEveryPath, ()) {
     Rig rig;
     rig.start();
     std::int64_t turned[4] = {};

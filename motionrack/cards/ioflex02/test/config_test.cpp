@@ -42,7 +42,7 @@ TEST(Ioflex02Image, IsTakenAndTheProjectRunsAfterTheTimeOfConfiguration) {
     EXPECT_EQ(rig.card.position(0), 3);
 }
 
-TEST(Ioflex02Image, ItsPayloadSaysHowTheAxesCount) {
+TEST(Ioflex02Image, ItsPayloadReportsHowTheAxesCount) {
     Rig rig{Settings{}};
     rig.start();
     rig.feed(*unpacked(position_image({0, mode::REVERSED.mask, 0, static_cast<std::uint16_t>(2 << 1)})));
@@ -134,7 +134,7 @@ TEST(Ioflex02Image, ConfiguringAgainEndsWhatRan) {
     EXPECT_EQ(rig.card.position(0), 0);
 }
 
-TEST(Ioflex02Image, OneOfTheUsersOwnRunsFromPowerUp) {
+TEST(Ioflex02Image, AUserImageRunsFromPowerUp) {
     Settings settings = loaded_settings();
     settings.image = *unpacked(position_image({mode::REVERSED.mask, 0, 0, 0}));
     Rig rig{settings};
@@ -153,7 +153,7 @@ TEST(Ioflex02Image, OneOfTheUsersOwnRunsFromPowerUp) {
     EXPECT_FALSE(check(settings));
 }
 
-TEST(Ioflex02Image, SaysOfItselfWhatItIs) {
+TEST(Ioflex02Image, IdentifiesItself) {
     const auto info = inspect(*raw_image({"position", 0x31, {1, 0, 2, 0, 8, 0, 0xF0, 0, 77}}));
     ASSERT_TRUE(info);
     EXPECT_EQ(info->project, "position");
@@ -259,7 +259,7 @@ TEST(Ioflex02Bus, NoCardAnswersAtAnotherAddress) {
     EXPECT_TRUE(rig.conditions().empty());
 }
 
-TEST(Ioflex02Bus, TwoCardsAtOneAddressBothTakeWhatIsWrittenAndReadAndedAndThatIsReported) {
+TEST(Ioflex02Bus, TwoCardsAtOneAddressBothAcceptWritesAndReadAndedWithAReport) {
     Settings other = loaded_settings();
     other.serial = 2;
     Rig rig;

@@ -259,7 +259,7 @@ TEST(Flex2Pos, CalibratesFourAxesWithTheFourCommands) {
     EXPECT_EQ(r.card.ReadPosition3(), -7);
 }
 
-TEST(Flex2Pos, TellsWhenNoIndexCame) {
+TEST(Flex2Pos, ReportsAMissingIndex) {
     Ready r;
     r.card.calibrate({cResNm, cNop, cNop, cNop});
     const auto done = r.card.wait_calibrated(0, milliseconds(50));
@@ -267,7 +267,7 @@ TEST(Flex2Pos, TellsWhenNoIndexCame) {
     EXPECT_THAT(done.error().message, HasSubstr("Axis 0 was not calibrated within 0.050 s"));
 }
 
-TEST(Flex2Pos, WaitsForAnIndexForEverIfItMay) {
+TEST(Flex2Pos, WaitsForAnIndexWithoutTimeoutIfAllowed) {
     Ready r;
     r.card.calibrate({cResNm, cNop, cNop, cNop});
     const Instant begun = r.rig.kernel.now();
@@ -333,7 +333,7 @@ TEST(Flex2Pos, ExtendsPositionsBeyond24BitsAndAcrossACalibration) {
     }
 }
 
-TEST(Flex2Pos, AResetOfTheProjectDoesNotDisturbWhatIsCarriedOn) {
+TEST(Flex2Pos, AResetOfTheProjectDoesNotDisturbTheExtendedCounts) {
     Ready r;
     r.rig.turn(0, 50);
     r.rig.run(whole_seconds(3));

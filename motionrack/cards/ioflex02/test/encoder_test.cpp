@@ -131,7 +131,7 @@ TEST(EncoderCheck, NamesTheLineThatIsBroken) {
     }
 }
 
-TEST(EncoderCheck, TellsWhereIndexPulsesDidNotCome) {
+TEST(EncoderCheck, ReportsMissingIndexPulsesWithTheirPositions) {
     Disc m;
     m.go(6'000);  // the index at 400 is known
     m.fault("missing_index", 2);
@@ -148,7 +148,7 @@ TEST(EncoderCheck, TellsWhereIndexPulsesDidNotCome) {
     EXPECT_THAT(m.sentence(m.found[0]), HasSubstr("1 index pulse did not come between 400 and 800"));
 }
 
-TEST(EncoderCheck, TellsABrokenIndexTurnByTurn) {
+TEST(EncoderCheck, ReportsABrokenIndexInEachTurn) {
     Disc m;
     m.go(-5'000);
     m.fault("broken_z", 1);
@@ -161,7 +161,7 @@ TEST(EncoderCheck, TellsABrokenIndexTurnByTurn) {
     EXPECT_EQ(missing, 5);  // at -800 .. -2400
 }
 
-TEST(EncoderCheck, TellsASecondIndexAndItsPlace) {
+TEST(EncoderCheck, ReportsASecondIndexAndItsPosition) {
     Disc m;
     m.go(5'000);
     m.fault("double_index", 50);
@@ -174,7 +174,7 @@ TEST(EncoderCheck, TellsASecondIndexAndItsPlace) {
     EXPECT_EQ(m.found.size(), 4u);
 }
 
-TEST(EncoderCheck, TellsLostLinesHowManyAndBetweenWhichIndexes) {
+TEST(EncoderCheck, ReportsTheNumberOfLostLinesBetweenTwoIndexes) {
     Disc m;
     m.go(9'000);
     m.card.calibrate({cNop, cNop, cRes, cNop});  // positions are not affected by it
@@ -189,7 +189,7 @@ TEST(EncoderCheck, TellsLostLinesHowManyAndBetweenWhichIndexes) {
     EXPECT_TRUE(m.rig.conditions().empty());  // the card itself cannot see it
 }
 
-TEST(EncoderCheck, TellsCountsThatAnOverSpeedLost) {
+TEST(EncoderCheck, ReportsCountsThatAnOverSpeedLost) {
     Disc m;
     m.go(6'000);
     m.fault("overspeed", 20'000);
@@ -203,7 +203,7 @@ TEST(EncoderCheck, TellsCountsThatAnOverSpeedLost) {
     EXPECT_EQ(lost, m.part.lost());
 }
 
-TEST(EncoderCheck, TellsSwappedAndInvertedLinesByTheWayTheyCount) {
+TEST(EncoderCheck, ReportsSwappedAndInvertedLinesByTheirCountDirection) {
     for (const char* name : {"swapped", "inverted_a", "inverted_b"}) {
         Disc m;
         m.fault(name, 1);
@@ -220,7 +220,7 @@ TEST(EncoderCheck, TellsSwappedAndInvertedLinesByTheWayTheyCount) {
     }
 }
 
-TEST(EncoderCheck, TellsNoiseAndIllegalTransitionsAndAFilterHelps) {
+TEST(EncoderCheck, ReportsNoiseAndIllegalTransitionsThatAFilterRemoves) {
     for (const int filter : {0, 15}) {
         Disc m;
         ASSERT_TRUE(m.card.set_mode(2, {.filter = filter}));
@@ -240,7 +240,7 @@ TEST(EncoderCheck, TellsNoiseAndIllegalTransitionsAndAFilterHelps) {
     }
 }
 
-TEST(EncoderCheck, TellsIllegalTransitionsAndTheirPlace) {
+TEST(EncoderCheck, ReportsIllegalTransitionsAndTheirPosition) {
     Disc m;
     m.go(700);
     m.rig.kernel.force(m.rig.kernel.find_wire("c1.a2"), 1 - m.rig.level("a2"));

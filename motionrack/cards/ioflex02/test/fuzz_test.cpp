@@ -30,7 +30,7 @@ TEST(Ioflex02Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
     EXPECT_GT(verdict.refused, 500);
 }
 
-TEST(Ioflex02Fuzz, EqualInputsGiveEqualHistoriesHoweverOftenSomebodyLooks) {
+TEST(Ioflex02Fuzz, EqualInputsGiveEqualHistoriesHoweverOftenTheyAreObserved) {
     std::mt19937_64 random(seed_from_environment(2004));
     Rig one, two;
     one.start();

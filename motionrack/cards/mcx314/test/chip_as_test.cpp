@@ -19,7 +19,7 @@ constexpr unsigned filter_of_in2 = field("EM6", "FE1").mask, ring = field("EM6",
 
 // ---- the variant
 
-TEST(ChipAs, TheOriginalRefusesItsCommandsAndSaysWhichChipHasThem) {
+TEST(ChipAs, TheOriginalRefusesItsCommandsAndReportsWhichChipHasThem) {
     Bench b;
     b.start();
     for (const unsigned code : {0x0Eu, 0x14u, 0x60u, 0x61u, 0x62u, 0x63u, 0x64u, 0x65u}) b.command(X, code);
@@ -34,7 +34,7 @@ TEST(ChipAs, TheOriginalRefusesItsCommandsAndSaysWhichChipHasThem) {
 
 // ---- input filters
 
-TEST(ChipAs, AFilterDelaysByTheTablesValueAndRemovesWhatIsShorter) {
+TEST(ChipAs, AFilterDelaysByTheTablesValueAndRemovesShorterPulses) {
     for (unsigned fl = 0; fl < 8; ++fl) {
         const std::int64_t delay = map::filter_ticks[fl];
         ChipAsHost b;

@@ -324,7 +324,7 @@ TEST(ChipDrive, AResetStopsEverythingAndClearsTheRegisters) {
     EXPECT_FALSE(b.interrupt());
 }
 
-TEST(ChipDrive, WhatComesAfterTheEndOfTimeDoesNotHoldUpTheClock) {
+TEST(ChipDrive, EventsAfterTheEndOfTimeDoNotBlockTheClock) {
     Bench b;
     b.start();
     b.data(X, 0x00, 16'000'000);  // a pulse in two seconds: LP would wrap after 136 years

@@ -54,7 +54,7 @@ TEST(ChipPath, TheMakersContourCloses) {
     EXPECT_TRUE(b.kernel.conditions().empty());
 }
 
-TEST(ChipPath, TheQueueIsOneDeepAndCnextTellsOfIt) {
+TEST(ChipPath, TheQueueIsOneDeepAsCnextShows) {
     Bench b;
     b.start();
     b.speeds(X | Y, 80'000, 1000, 1000);

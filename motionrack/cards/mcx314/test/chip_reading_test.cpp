@@ -50,7 +50,7 @@ TEST(ChipReadings, ASoftwareLimitBeginsBeyondCompPlusOrAtIt) {
     }
 }
 
-TEST(ChipReadings, AoIsWhatTheSettingSaysUntilItIsWrittenAndAfterReset) {
+TEST(ChipReadings, AoHasTheValueOfTheSettingUntilItIsWrittenAndAfterReset) {
     for (const std::uint16_t offset : std::array<std::uint16_t, 3>{0, 8, 500}) {
         Bench b({Variant::mcx314, SlowDrive::at_v, SoftwareLimit::beyond, offset});
         b.start();

@@ -84,7 +84,7 @@ TEST(DriverPaths, AChainsLastSegmentThatIsTooShortLowersTheSpeedBefore) {
     EXPECT_GT(fast->end_speed, 20);
 }
 
-TEST(DriverPaths, AChainThatALimitStopsSaysSo) {
+TEST(DriverPaths, AChainThatALimitStopsReportsIt) {
     DriverRig rig;
     Driver& d = rig.driver;
     done(d.SetMultiple(xyzu, 10));

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 // ---- messages
 
-TEST(DriverMessages, TellTheCauseThePlaceAndWhatToDo) {
+TEST(DriverMessages, StateTheCauseThePositionAndTheRemedy) {
     struct Case {
         const char* pin;
         const char* why;

@@ -114,7 +114,7 @@ TEST(HomingBySource, AnOriginAtTheLimitIsHomeWhereItIsApproachedSlowly) {
     }
 }
 
-TEST(HomingBySource, AnOriginTooNearToTheLimitToBrakeIsSaidToBe) {
+TEST(HomingBySource, ReportsAnOriginTooNearToTheLimitForDeceleration) {
     for (const auto function : {&HomeType1, &HomeType3}) {
         HomeRig rig({RigAxis{.home_mm = -7.8}});
         rig.start();

@@ -83,7 +83,7 @@ TEST(Homing, Type4EndsAtTheFirstIndexAfterTheSlowApproach) {
     EXPECT_EQ(*done->switch_to_index(), 640);
 }
 
-TEST(Homing, ThePlaceOfHomeIsGivenToBothCounters) {
+TEST(Homing, SetsBothCountersToTheHomePosition) {
     HomeRig rig;
     rig.start();
     HomeSettings s = rig_settings(2);
@@ -288,7 +288,7 @@ TEST(Homing, ASwitchThatIsShorterThanTheBrakingWayIsFoundOnTheWayBack) {
     EXPECT_THAT(states_of(*done), HasSubstr("RETURN_WAIT BACK_WAIT"));
 }
 
-TEST(Homing, AtTheLimitWithoutLeaveToTurnItSaysSo) {
+TEST(Homing, ReportsALimitAtWhichItMayNotTurn) {
     CamRig rig(3000, 4000);
     rig.start();
     rig.hold_wire("c.xlmtm", 0);

@@ -244,7 +244,7 @@ TEST(DeclaredLibrary, BeginsNoDriveAfterAStopBetweenAnyTwoAccesses) {
     }
 }
 
-TEST(DeclaredLibrary, TellsHowAHomingFailed) {
+TEST(DeclaredLibrary, ReportsHowAHomingFailed) {
     LibraryRig rig;
     ASSERT_TRUE(rig.call("SetRange", {{"data", 800'000}}));
     rig.wire("xlmtm", 0);  // at the end of the travel, and at the other one too

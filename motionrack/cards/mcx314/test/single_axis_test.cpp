@@ -65,7 +65,7 @@ TEST(SingleAxis, HasNoValidPositionUntilItIsHomedAndThenCountsAsTheMachineStands
     EXPECT_EQ(rig.machines[0]->lost_steps(), 0);
 }
 
-TEST(SingleAxis, TellsWhatTheHomingFoundInMillimetres) {
+TEST(SingleAxis, ReportsTheResultsOfHomingInMillimetres) {
     AxisRig rig;
     rig.home(4);
     const control::HomingResult out = rig.x.home_outcome();
@@ -208,7 +208,7 @@ TEST(SingleAxis, AMoveIntoALimitIsReported) {
     EXPECT_TRUE(rig.x.move_to(20, 20));
 }
 
-TEST(SingleAxis, WaitGivesUpAfterItsTimeAndSaysWhereItIs) {
+TEST(SingleAxis, WaitTimesOutAndReportsThePosition) {
     AxisRig rig;
     rig.home();
     ASSERT_TRUE(rig.x.move_to(300, 5));

@@ -69,7 +69,7 @@ TEST(Units, TheRangeIsTheWidestThatReachesAndTheSpeedComesOutAsAsked) {
     }));
 }
 
-TEST(Units, RegistersGoBackToTheValuesThatWereTold) {
+TEST(Units, RegistersConvertBackToTheGivenValues) {
     EXPECT_TRUE(rc::check([] {
         const Scale scale{any(1, 1'000)};
         const RealDrive drive{any(1, 300), any(0.1, 5), any(10, 900), any(10, 900),
@@ -114,7 +114,7 @@ TEST(Units, TheScalingTable) {
     }
 }
 
-TEST(Units, TheTextTellsEveryRounding) {
+TEST(Units, TheTextStatesEveryRounding) {
     const auto set = real_setting({200}, {33.3, 1, 400, 300, 5'000});
     ASSERT_TRUE(set);
     const std::string text = set->text();

@@ -176,7 +176,7 @@ std::uint64_t hash_of(std::initializer_list<Command> list) {
     return kernel.state_hash();
 }
 
-TEST(Rtc5Card, TheStateHashTellsListsApartAndDependsOnTheirContentsOnly) {
+TEST(Rtc5Card, TheStateHashDistinguishesListsByTheirContentsOnly) {
     const Command a = *list_command(Op::mark_abs, {5000, 100}), b = *list_command(Op::mark_abs, {5000, 101}),
                   rel = *list_command(Op::mark_rel, {5000, 100}), nop = *list_command(Op::list_nop, {});
     const std::vector<std::uint64_t> hashes = {hash_of({}),     hash_of({a}),      hash_of({b}),

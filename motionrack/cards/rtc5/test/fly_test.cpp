@@ -268,7 +268,7 @@ TEST(Rtc5Fly, ConditionsLookAtTheLimitsAndClearThem) {
     EXPECT_EQ(rig.card.get_marking_info(), 0u);
 }
 
-TEST(Rtc5Fly, WhatRunsOutOfTheFieldIsClippedFlaggedAndToldWhen) {
+TEST(Rtc5Fly, PositionsOutsideTheFieldAreClippedFlaggedAndReported) {
     Rig rig;
     ASSERT_TRUE(rig.card.simulate_encoder(1));
     rig.put(Op::set_fly_x, {52.42881});
@@ -292,7 +292,7 @@ TEST(Rtc5Fly, StoredEncodersAreReadAndSpeedIsSmoothed) {
     EXPECT_NEAR(rig.card.encoder_speed(), 1000, 1e-6);
 }
 
-TEST(Rtc5Fly, TheExtentSaysHowMuchRoomAJobLeavesWhetherOneLooksOrNot) {
+TEST(Rtc5Fly, TheExtentGivesTheMarginOfAJobWithAndWithoutObservers) {
     const auto extent = [](double scale, bool looked_at) {
         Rig rig;
         EXPECT_TRUE(rig.card.simulate_encoder(1));

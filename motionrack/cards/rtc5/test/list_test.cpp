@@ -75,7 +75,7 @@ TEST(Rtc5List, APositiveArcIsClockwise) {
     EXPECT_EQ(rig.last_y(), 1000);
 }
 
-TEST(Rtc5List, ListsChangeOnceByAutoChangeAndForEverInALoop) {
+TEST(Rtc5List, ListsChangeOnceByAutoChangeAndRepeatedlyInALoop) {
     Rig rig;
     rig.put(Op::jump_rel, {10, 0});
     rig.put(Op::set_end_of_list);
@@ -221,7 +221,7 @@ TEST(Rtc5Starts, TrackDelaysQueueEightAndAStartIntoARunningListIsLost) {
     EXPECT_EQ(rig.card.get_marking_info(), marking_bit("TRIGGER_ERROR"));
 }
 
-TEST(Rtc5Starts, AListenerIsToldOfEachStartAndEndInItsTick) {
+TEST(Rtc5Starts, NotifiesAListenerOfEachStartAndEndInItsTick) {
     struct Told final : ListListener {
         std::vector<std::pair<std::int64_t, int>> all;  // 0 to 2: StartFate, 3: end
         void started(std::int64_t tick, StartFate fate) override { all.emplace_back(tick, static_cast<int>(fate)); }

@@ -103,7 +103,7 @@ TEST(Rtc5Recording, EndsWhenItsMemoryIsFull) {
     EXPECT_EQ(rig.card.recording().period, 0);
 }
 
-TEST(Rtc5Recording, IsTheSameWhetherSomebodyLooksOrNot) {
+TEST(Rtc5Recording, IsTheSameWithAndWithoutObservers) {
     Engine cards[2] = {Engine(Settings{4096, 1000, 1000}), Engine(Settings{4096, 1000, 1000})};
     Rig looking;
     for (Engine& card : cards) {
@@ -120,7 +120,7 @@ TEST(Rtc5Recording, IsTheSameWhetherSomebodyLooksOrNot) {
     EXPECT_EQ(recorded(cards[0], 1), recorded(cards[1], 1));
 }
 
-TEST(Rtc5Recording, ZIsThatOfTheLastTickWhetherSomebodyLooksOrNot) {
+TEST(Rtc5Recording, ZIsThatOfTheLastTickWithAndWithoutObservers) {
     for (const bool looks : {false, true}) {
         Rig rig;
         ASSERT_TRUE(rig.card.simulate_encoder(1));

@@ -93,7 +93,7 @@ TEST(Rtc5Subroutines, ACallGoesThereAndBackWithoutTakingTime) {
     EXPECT_EQ(rig.last_y(), 1010);
 }
 
-TEST(Rtc5Subroutines, WhatIsNotThereOrTooDeepIsANop) {
+TEST(Rtc5Subroutines, AMissingOrTooDeepSubroutineIsANop) {
     Rig rig;
     ASSERT_TRUE(rig.card.load_sub(0));
     rig.put(Op::micro_vector_rel, {1, 0, -1, -1});

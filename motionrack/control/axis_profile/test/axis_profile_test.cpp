@@ -213,7 +213,7 @@ TEST(AxisProfile, IsRefusedToATargetThatCannotBeKept) {
     EXPECT_FALSE(is_feasible_end(-1.001, 4, limits));
 }
 
-TEST(AxisProfile, IsRefusedForWhatIsNoNumber) {
+TEST(AxisProfile, IsRefusedForNotANumber) {
     const KinematicLimits limits = {2, 4, 8};
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         for (const KinematicState& state :

@@ -89,7 +89,7 @@ TEST(Curve, RoundsACornerByItsTolerance) {
     EXPECT_NEAR(max_distance(pieces, paths_of(moves)), 0.996 * tolerance / std::sqrt(2.0), 1e-6);
 }
 
-TEST(Curve, RestsWhereTheProgramSaysSo) {
+TEST(Curve, StopsWhereTheProgramRequiresIt) {
     const Point a = {10, 0, 0}, b = {10, 10, 0};
     EXPECT_EQ(rests({slow(line_to(a)), slow(line_to(b))}), 1);
     EXPECT_EQ(rests({line_to(a), line_to(b)}), 2);  // at this feed rate the stop is faster than the slow detour

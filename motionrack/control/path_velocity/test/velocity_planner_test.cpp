@@ -198,7 +198,7 @@ TEST(VelocityPlanner, FollowsLimitsThatChangeSlowly) {
     EXPECT_LE(seconds_of_feed(planner.plan(intervals)), 1.003 * min_seconds + ends);
 }
 
-TEST(VelocityPlanner, DoesNotDependOnWhatWasPlannedBefore) {
+TEST(VelocityPlanner, DoesNotDependOnEarlierPlans) {
     VelocityPlanner used, fresh;
     RandomSpans random(3);
     for (int run = 0; run < 50; ++run) {
@@ -250,7 +250,7 @@ TEST(VelocityPlanner, MakesNoSegmentsOfNothing) {
     EXPECT_TRUE(planner.plan({}).empty());
 }
 
-TEST(ProfileSegment, IsAsLongAsItSaysAndMovesAsItsVelocity2Says) {
+TEST(ProfileSegment, HasItsStatedLengthAndFollowsItsVelocity2) {
     const ProfileSegment cell = parabolic_segment(5, 2, 100, 30, 8);
     EXPECT_NEAR(cell.at(0).velocity, 10, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).u, 7, 1e-12);

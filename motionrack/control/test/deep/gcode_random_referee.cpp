@@ -106,7 +106,7 @@ bool are_same(const std::string& ours, const std::string& theirs) {
 
 }  // namespace
 
-TEST(GcodeReferee, TakesTheSameCallsForTheSame) {
+TEST(GcodeReferee, AcceptsEqualCallsAsEqual) {
     EXPECT_TRUE(are_same("STRAIGHT_FEED(-12.3437, 0.0000)\n", "STRAIGHT_FEED(-12.3438, 0.0000)\n"));
     EXPECT_FALSE(are_same("STRAIGHT_FEED(-12.3437, 0.0000)\n", "STRAIGHT_FEED(-12.3439, 0.0000)\n"));
     EXPECT_FALSE(are_same("STRAIGHT_FEED(1.0000)\n", "STRAIGHT_TRAVERSE(1.0000)\n"));

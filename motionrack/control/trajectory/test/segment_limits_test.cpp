@@ -68,7 +68,7 @@ TEST(SegmentLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
 }
 
 /// Accelerates all the way to it, and decelerates all the way from it.
-TEST(SegmentLimits, SayHowFarTheVelocityComesWithTheAccelerationTheyLeave) {
+TEST(SegmentLimits, GiveTheReachableVelocityWithTheRemainingAcceleration) {
     RandomPieces random;
     int looked = 0;
     for (int run = 0; run < 1000; ++run) {

@@ -34,7 +34,7 @@ struct Progress {
     mr_run_options options() { return {nullptr, 0, &Progress::call, this}; }
 };
 
-TEST(CProgram, IsDrivenToItsEndAndReportsWhatCameOfIt) {
+TEST(CProgram, IsExecutedToItsEndAndReportsItsResult) {
     World world(homing_rack);
     Progress progress;
     const mr_run_options options = progress.options();

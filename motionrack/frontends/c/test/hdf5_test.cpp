@@ -153,7 +153,7 @@ TEST(CHdf5, AnEndThatHasNoRoomIsReportedAndTheFileDoesNotTakeItsName) {
     std::filesystem::remove(part);
 }
 
-TEST(CHdf5, ARackThatIsClosedTellsWhatBecameOfItsRecording) {
+TEST(CHdf5, ClosingARackReportsTheStateOfItsRecording) {
     const std::string h5 = temporary("closed.h5");
     mr_rack* rack = nullptr;
     ASSERT_EQ(mr_rack_open(one_card, &rack), MR_OK);

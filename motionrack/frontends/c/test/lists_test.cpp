@@ -92,7 +92,7 @@ TEST_P(CLists, HaveEveryQuantityThatTheRackHas) {
     EXPECT_EQ(reported, known);
 }
 
-TEST_P(CLists, SayWhatCanBeSetAndHowFar) {
+TEST_P(CLists, StateWhatCanBeSetAndItsRange) {
     World world(GetParam().c_str());
     for (const Quantity& one : quantities(world)) {
         const auto set = [&](double value) {

@@ -142,7 +142,7 @@ TEST(CWires, CountsUpAndDownPulsesInTheModeForThem) {
 
 // ---- the machine
 
-TEST(CWires, TheMachineTellsItsTruth) {
+TEST(CWires, TheMachineReportsItsTruePositions) {
     World world(with_switches);
     EXPECT_EQ(world.part("X.position_mm"), 10);
     EXPECT_EQ(world.part("A.position_deg"), 0);

@@ -273,7 +273,7 @@ TEST(CWorld, RecordsNumbersAsRealsAndVoltagesInVolts) {
     std::filesystem::remove(csv);
 }
 
-TEST(CWorld, TellsWhatHappenedWithItsInstant) {
+TEST(CWorld, ReportsConditionsWithTheirInstants) {
     struct Told {
         std::uint64_t number;
         std::int64_t at;

@@ -35,7 +35,7 @@ constexpr int home_input = 0x0002;  // IN0 enabled, active low
 
 // ---- chips
 
-TEST(Mcx314libChips, WithoutARackTheFirstFunctionSaysWhatToSet) {
+TEST(Mcx314libChips, WithoutARackTheFirstFunctionReportsWhatToSet) {
     ::unsetenv("MOTIONRACK_RACK");
     mcx314_clear_error();
     SetRange(800'000);
@@ -146,7 +146,7 @@ TEST(Mcx314libChips, SelectsNoOtherChipWhenTheSelectedOneIsClosed) {
 
 // ---- plans
 
-TEST(Mcx314libPlans, SayWhatADriveDoesWhichThenEndsAtItsStartSpeed) {
+TEST(Mcx314libPlans, DescribeADriveThatThenEndsAtItsStartSpeed) {
     const Open chip;
     set_up();
     for (const int k : {0, 1010}) {
@@ -227,7 +227,7 @@ TEST(Mcx314libTime, TheWorldRunsAsLongAsAnIntHasMilliseconds) {
     EXPECT_EQ(mcx314_now_us(), 2'147'483'647'000);
 }
 
-TEST(Mcx314libTime, AWaitThatIsTooShortSaysSo) {
+TEST(Mcx314libTime, AWaitThatIsTooShortReportsIt) {
     const Open chip;
     set_up();
     TCurve_C(x, 100, 4000, 400);
@@ -279,7 +279,7 @@ TEST(Mcx314libHome, EveryTypeEndsAtHome) {
     }
 }
 
-TEST(Mcx314libHome, AnAxisWithoutASwitchSaysThatItFoundNone) {
+TEST(Mcx314libHome, AnAxisWithoutASwitchReportsThatNoneWasFound) {
     const Open chip(with_home);
     SetRange(800'000);
     EXPECT_EQ(mcx314_set_wire("X.home", 1), 0) << mcx314_last_error();

@@ -192,7 +192,7 @@ std::vector<std::int64_t> written() {
     return out;
 }
 
-TEST(Mcx314lib, WhatIsRefusedTellsTheRangeAndWritesNothing) {
+TEST(Mcx314lib, ARefusedCallStatesTheRangeAndWritesNothing) {
     const Open chip;
     set_up();
     const auto before = written();

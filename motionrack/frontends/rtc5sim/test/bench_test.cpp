@@ -87,7 +87,7 @@ TEST(Rtc5simTime, AdvancesInALoopThatPollsTheStatusUntilTheListEnds) {
     EXPECT_NEAR(questions, 1000, 3);
 }
 
-TEST(Rtc5simTime, AQuestionTakesWhatIsSaid) {
+TEST(Rtc5simTime, AQueryTakesTheStatedTime) {
     const Session session;
     EXPECT_EQ(rtc5sim_question_us(1000), 0);
     get_marking_info();
@@ -103,7 +103,7 @@ TEST(Rtc5simTime, AQuestionTakesWhatIsSaid) {
     EXPECT_EQ(rtc5sim_now_us(), 1000);
 }
 
-TEST(Rtc5simTime, RunningToRestSaysWhetherItRests) {
+TEST(Rtc5simTime, RunningToRestReportsWhetherTheCardRests) {
     const Session session;
     load_line(10'000);
     execute_list(1);
@@ -114,7 +114,7 @@ TEST(Rtc5simTime, RunningToRestSaysWhetherItRests) {
 
 // ---- errors
 
-TEST(Rtc5simErrors, WhatIsRefusedIsSaidAndKeptInTheBits) {
+TEST(Rtc5simErrors, RefusalsAreReportedAndKeptInTheErrorBits) {
     const Session session;
     const UINT before = get_input_pointer();
     mark_abs(1, 2);
@@ -221,7 +221,7 @@ TEST_F(Rtc5simFiles, ACorrectionFileIsUsedAndADamagedOneLeavesTheOldTable) {
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("get_table_para: ParaNo is 16; it must be 0 to 15"));
 }
 
-TEST_F(Rtc5simFiles, WhatTheSumOfAFileSaysIsReported) {
+TEST_F(Rtc5simFiles, ReportsTheChecksumOfAFile) {
     const Session session;
     rtc5::CorrectionFile table = rtc5::one_to_one();
     table.header[1] = 5184;

@@ -84,7 +84,7 @@ double worst_of_a_mark(double direction_deg, Correct correct) {
     return std::fmax(max_error, std::fmax(std::fabs(furthest - 10), std::fabs(nearest)));
 }
 
-TEST(Rtc5simCalibration, ReadingBeforeAnythingWasPutThereSaysWhatMustComeFirst) {
+TEST(Rtc5simCalibration, ReadingAnEmptyLocationReportsWhatMustComeFirst) {
     const Session session;
     ASSERT_EQ(rtc5sim_open(standing_belt(0, false).c_str()), 0) << rtc5sim_last_error();
     drive(100);
@@ -109,7 +109,7 @@ TEST(Rtc5simCalibration, ReadingBeforeAnythingWasPutThereSaysWhatMustComeFirst) 
     }
 }
 
-TEST(Rtc5simCalibration, WithoutASenderThereIsNoWordAndThatIsSaid) {
+TEST(Rtc5simCalibration, ReportsAMissingWordWithoutASender) {
     const Session session;
     set_mcbsp_in(1, 0);
     EXPECT_EQ(read_mcbsp(0), 0);

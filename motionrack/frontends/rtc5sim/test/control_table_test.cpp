@@ -105,7 +105,7 @@ TEST(Rtc5ControlTable, TheCardTakesBothEndsOfEachRangeAndNothingBeyond) {
     }
 }
 
-TEST(Rtc5ControlTable, EachCommandAnswersAsManyNumbersAsItSays) {
+TEST(Rtc5ControlTable, EachCommandAnswersTheStatedNumberOfNumbers) {
     for (const ControlCommand& command : rtc5::control_commands()) {
         SCOPED_TRACE(command.name);
         Engine card;

@@ -41,7 +41,7 @@ TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
     EXPECT_THAT(client.ask("$I\n"), StartsWith("[VER:1.1h"));
 }
 
-TEST_F(SenderPorts, HearALineOfWhoHasGoneAtOnce) {
+TEST_F(SenderPorts, ExecuteTheLastLineOfAClientThatDisconnectsAtOnce) {
     start();
     {
         SenderClient client = terminal();
@@ -105,7 +105,7 @@ TEST_F(SenderPorts, LetTheNextOneWriteWhenTheWriterHasGone) {
     EXPECT_EQ(greeting, banner);
 }
 
-TEST_F(SenderPorts, CloseWhatIsNoSenderAndLetItTouchNothing) {
+TEST_F(SenderPorts, CloseConnectionsOfOtherProgramsWithoutAnyEffect) {
     start();
     SenderClient writer = tcp();
     EXPECT_EQ(writer.ask("G4 P100000\n", banner), banner);
@@ -143,7 +143,7 @@ TEST_F(SenderPorts, EnableNoDriveBeforeALineMoves) {
     EXPECT_NE(state(), operate::MachineState::disabled);
 }
 
-TEST_F(SenderPorts, TellASenderWhoStoppedIt) {
+TEST_F(SenderPorts, InformASenderWhoStoppedIt) {
     start();
     SenderClient client = tcp();
     client.say("G4 P100000\n");
@@ -188,7 +188,7 @@ TEST_F(SenderPorts, RefuseLinesOfASenderWhileAnotherHoldsControlOfAMachineThatMo
     EXPECT_THAT(first.ask("?", ">\r\n"), HasSubstr("<Run|"));
 }
 
-TEST_F(SenderPorts, TellWhichSettingASenderHasChanged) {
+TEST_F(SenderPorts, ReportWhichSettingASenderHasChanged) {
     start();
     SenderClient client = terminal();
     client.receive(banner);
@@ -243,7 +243,7 @@ TEST_F(SenderPorts, ReplaceAnOldLinkAndTakeTheirOwnAway) {
     EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(settings_.link)));
 }
 
-TEST_F(SenderPorts, SayThatThePortIsTaken) {
+TEST_F(SenderPorts, ReportAPortThatIsInUse) {
     start();
     GrblPortSettings same;
     same.port = ports_->port();

@@ -39,7 +39,7 @@ TEST(HostileRequest, IsRefusedWithAReason) {
     EXPECT_EQ(running.client().ask("GET", "/api/status").status, 200);
 }
 
-TEST(HostileRequest, ThatIsTooLongIsToldSoWhileItStillComes) {
+TEST(HostileRequest, ThatIsTooLongIsRejectedWhileItIsReceived) {
     Running running;
     WebClient client = running.client();
     const WebAnswer answer = client.ask("POST", "/api/pair", std::string(2'000'000, ' '));
@@ -151,7 +151,7 @@ TEST(HostileStream, IsRefusedWithASentenceWhereItsHandshakeIsNone) {
     EXPECT_EQ(client.answer().status, 101);
 }
 
-TEST(HostileStream, ThatSaysTooMuchIsRefusedButItsStopIsHeard) {
+TEST(HostileStream, ThatSendsTooMuchIsRejectedButItsStopIsExecuted) {
     Running running([](ServerSettings& settings) {
         settings.limits.messages_at_once = 3;
         settings.limits.messages_per_second = 1e-6;

@@ -72,7 +72,7 @@ TEST_F(PageServer, AnswersQueriesOfThisComputerWithoutAToken) {
     EXPECT_EQ(client.ask("GET", "/api/openapi.json").json()["openapi"].get<std::string>().substr(0, 2), "3.");
 }
 
-TEST_F(PageServer, TakesNoOrdersWithoutAToken) {
+TEST_F(PageServer, RejectsCommandsWithoutAToken) {
     for (const char* command : {"enable", "take_control", "invite", "home"}) {
         const WebAnswer answer = client.ask("POST", std::string("/api/") + command, "{}");
         EXPECT_EQ(answer.status, 403) << command;
@@ -130,7 +130,7 @@ TEST_F(PageServer, InvitesWithTheRoleThatWasAskedFor) {
     EXPECT_EQ(client.ask("POST", "/api/invite", "{\"role\":\"operate\"}", bearer(paired.json()["token"])).status, 403);
 }
 
-TEST_F(PageServer, StopsForEverybody) {
+TEST_F(PageServer, StopsForEveryClient) {
     EXPECT_EQ(client.ask("POST", "/api/stop").status, 200);
     EXPECT_EQ(client.ask("POST", "/api/stop", "no JSON at all", bearer("nonsense")).status, 200);
     EXPECT_TRUE(running.audited("stop", 200));
@@ -138,7 +138,7 @@ TEST_F(PageServer, StopsForEverybody) {
     EXPECT_EQ(other.ask("GET", "/api/stop").status, 405);
 }
 
-TEST_F(PageServer, SaysWhatIsWrongWithARequest) {
+TEST_F(PageServer, ReportsWhatIsWrongWithARequest) {
     const std::string anna = bearer(running.token("anna"));
     EXPECT_EQ(client.ask("GET", "/api/nothing").status, 404);
     const WebAnswer former = client.ask("POST", "/api/begin", "", anna);

@@ -38,7 +38,7 @@ TEST(StreamConnection, BeginsWithHelloAndGivesPictures) {
     EXPECT_GT(client.receive_until(is_picture)["seq"], first["seq"]);
 }
 
-TEST(StreamConnection, GivesTheChannelsThatWereAskedForInTheirOrder) {
+TEST(StreamConnection, SendsTheRequestedChannelsInTheirOrder) {
     Running running;
     WebClient client = running.stream("");
     EXPECT_TRUE(client.exchange({{"subscribe", {{"channels", {"X.commanded", "Y.commanded"}}, {"rate_hz", 100}}}})
@@ -230,7 +230,7 @@ TEST_P(StreamConnectionWhile, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing
     EXPECT_EQ(running.path(), moving() ? quiet_path() : decltype(quiet_path())());
 }
 
-TEST_P(StreamConnectionWhile, LosesPicturesOfASlowReaderAndNobodyElses) {
+TEST_P(StreamConnectionWhile, LosesSnapshotsOfASlowReaderOnly) {
     Running running;
     WebClient anna = running.master("anna");
     if (moving()) {

@@ -76,7 +76,7 @@ TEST_F(TlsServer, ServesPairedClientsOnOtherAddresses) {
     EXPECT_TRUE(stream.receive_until([](const json& message) { return message.contains("seq"); }).is_object());
 }
 
-TEST_F(TlsServer, SaysNothingToWhoSpeaksWithoutTls) {
+TEST_F(TlsServer, SendsNothingToAClientWithoutTls) {
     Running running(tls());
     WebClient client(running.port());
     EXPECT_EQ(client.ask("GET", "/").status, 0);
@@ -84,7 +84,7 @@ TEST_F(TlsServer, SaysNothingToWhoSpeaksWithoutTls) {
     EXPECT_EQ(good.ask("POST", "/api/stop").status, 200);
 }
 
-TEST_F(TlsServer, HearsStopInAFloodOfHandshakesThatEndNowhere) {
+TEST_F(TlsServer, ExecutesStopInAFloodOfIncompleteHandshakes) {
     Running running(tls());
     const std::string half_a_hello("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11);
     for (const std::string& says : {std::string(), half_a_hello, std::string("GET / HTTP/1.1\r\n\r\n")})

@@ -179,7 +179,7 @@ TEST(Token, IsVoidOnceItsBrowserWasForgotten) {
 
 // ---- STOP
 
-TEST(Stop, IsHeardInAFloodOfConnections) {
+TEST(Stop, IsExecutedInAFloodOfConnections) {
     Running running;
     for (const Flood::Address from : {Flood::Address::another, Flood::Address::the_same})
         for (const std::size_t held : {0u, 400u}) {
