@@ -129,7 +129,7 @@ TEST_F(MarkCommand, ReadsAJobFromStandardInput) {
     EXPECT_THAT(ran.out, HasSubstr("drawing: "));
 }
 
-TEST_F(MarkCommand, RefusesWrongJobsWithTheirPlaces) {
+TEST_F(MarkCommand, RefusesWrongJobsWithTheirLocations) {
     refused("[drawing]\ntext = \n", 2, "job.toml:2:");
     refused("[drawing]\n", 2, "job.toml:1:");
     refused("[drawing]\ntext = 'A'\n[pace]\nmark_speed_mm_s = nan\n", 2, "job.toml:4:");
@@ -143,7 +143,7 @@ TEST_F(MarkCommand, RefusesWrongJobsWithTheirPlaces) {
     EXPECT_EQ(motionrack("mark examples").code, 5) << "a folder";
 }
 
-TEST_F(MarkCommand, RefusesWrongDrawingsAndTablesWithTheirPlaces) {
+TEST_F(MarkCommand, RefusesWrongDrawingsAndTablesWithTheirLocations) {
     const std::string job = "[drawing]\nsvg = 'd.svg'\n";
     refused(job, 5, "d.svg cannot be read");
     const auto drawing = [&](const std::string& svg, const std::string& said) {

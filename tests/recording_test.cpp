@@ -226,7 +226,7 @@ TEST_F(RecordedRun, ThatWasKilledHasAllUpToSomeInstant) {
     EXPECT_THAT(data->verdict.text, HasSubstr("was cut off"));
 }
 
-TEST_F(RecordedRun, RefusesOrdersThatAreNone) {
+TEST_F(RecordedRun, RejectsUnknownCommands) {
     Rack rack(request_for(program).config);
     const auto refused = [&](const std::string& order) {
         const auto orders = read_commands({order});
@@ -311,7 +311,7 @@ TEST_F(Recordings, NeverGoOverAFileThatIsRead) {
     EXPECT_EQ(motionrack("replay a.h5").code, 0);
 }
 
-TEST_F(Recordings, AreMadeOfProgramsWithLoopsToolsAndOrders) {
+TEST_F(Recordings, AreMadeOfProgramsWithLoopsToolsAndCommands) {
     write("part.ngc", "o1 repeat [3]\no<side> call [4]\no1 endrepeat\nT1 M6 G43 H1\nG0 Z50\nM2\n");
     write("side.ngc", "o<side> sub\nG91 G1 X#1 F1200\nG90\no<side> endsub\n");
     write("tools.tbl", "T1 P1 Z0.00005 D3\n");

@@ -212,7 +212,7 @@ TEST_P(StreamExecutorTest, HeldOnAnArcBeforeATurnOfARotaryAxisEndsTheArc) {
     }
 }
 
-TEST_P(StreamExecutorTest, StoppedForgetsTheRestAndTheNextLineBeginsWhereItStands) {
+TEST_P(StreamExecutorTest, StoppedDiscardsTheRestAndTheNextLineBeginsAtTheStopPosition) {
     Watched w(router(GetParam()));
     bool asked = false;
     w.on_slice = [&] {

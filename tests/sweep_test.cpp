@@ -141,7 +141,7 @@ TEST_F(SweepCommand, PrintsTheReportOfRun) {
     EXPECT_THAT(lines[4], HasSubstr(",3,500,0.05,X.limit_plus=0@500ms,machine,"));
 }
 
-TEST_F(SweepCommand, TakesNoRowsOfAnotherProgramRackOrValue) {
+TEST_F(SweepCommand, RejectsRowsOfAnotherProgramRackOrValue) {
     (void)table("sweep.toml -o out.csv");
     write("rack.toml", std::string("# a comment changes nothing\n") + rack_text);
     EXPECT_THAT(motionrack("sweep sweep.toml -o out.csv").out, HasSubstr("64 of 64 points were finished before"));
@@ -164,7 +164,7 @@ TEST_F(SweepCommand, EndsOnRequestAndStatesHowToContinue) {
     EXPECT_EQ(lines_of(text_of(folder / "out.csv")).size(), 121u);
 }
 
-TEST_F(SweepCommand, RefusesBadFilesWithTheirPlaceBeforeAnythingRuns) {
+TEST_F(SweepCommand, RejectsBadFilesWithTheirLocationBeforeAnythingRuns) {
     struct Case {
         const char *vary, *place, *said;
     };

@@ -49,7 +49,7 @@ TEST_F(LeaseOfControl, OfADeadClientIsTakenOverByForceWhileTheMachineMoves) {
     EXPECT_FALSE(lease.holder()->left);
 }
 
-TEST_F(LeaseOfControl, OfAClientThatOrdersAgainIsNotTakenOverWhileTheMachineMoves) {
+TEST_F(LeaseOfControl, OfAClientThatSendsCommandsAgainIsNotTakenOverWhileTheMachineMoves) {
     ASSERT_TRUE(take("anna", "a"));
     lease.left("a");
     ASSERT_TRUE(lease.check("a"));

@@ -119,7 +119,7 @@ TEST(StateTables, FindWhatIsReachedThroughAChainDeclaredBackwards) {
               "");
 }
 
-TEST(Flaws, KeepASentenceThatIsTooLongWithinTheirRoom) {
+TEST(Flaws, TruncateASentenceThatIsTooLong) {
     const std::string name(500, 'x');
     EXPECT_EQ(DeclarationError({name, " is long"}).text(), std::string(159, 'x'));
 }

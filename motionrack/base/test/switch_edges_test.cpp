@@ -55,7 +55,7 @@ TEST(SwitchEdges, AreThoseOfTheApproachBefore) {
               "deviates by at most 2.00");
 }
 
-TEST(SwitchEdges, ThatBounceForLongAreReleasedFromTheFirstPlaceToTheLast) {
+TEST(SwitchEdges, ThatBounceForLongAreReleasedFromTheFirstPositionToTheLast) {
     for (const double acts : {100.0, 88.0, 92.0}) {
         SwitchEdges search = edges();
         search.released(95, 0);

@@ -129,7 +129,7 @@ TEST(GcodeFlow, LoadsSubprogramsFromFilesBesideTheProgram) {
     EXPECT_THAT(read.problems[4].message, HasSubstr("cannot be a file in its folder"));
 }
 
-TEST(GcodeFlow, ThatDoesNotFitTogetherIsReportedWithItsPlace) {
+TEST(GcodeFlow, ThatDoesNotFitTogetherIsReportedWithItsLocation) {
     const RefusedAt rows[] = {{"X1\no1 if [1]\nX2", 2, "its o1 endif is missing"},
                               {"o1 endif", 1, "no o1 if is open here"},
                               {"o1 while [1]\no2 if [1]\no1 endwhile\no2 endif", 3, "o2 if of line 2 is open here"},

@@ -134,7 +134,7 @@ TEST(GcodeParameters, ReportTheModesByName) {
     EXPECT_EQ(x_after("X#<_line>"), 2);
 }
 
-TEST(GcodeParameters, ThatAreFaultyAreReportedWithTheirPlace) {
+TEST(GcodeParameters, ThatAreFaultyAreReportedWithTheirLocation) {
     struct Row {
         const char* program;
         int column;

@@ -79,7 +79,7 @@ TEST(GcodeNumbered, MayBeInAFileOfTheirOwn) {
     EXPECT_THAT(open.message, HasSubstr("end it with M99"));
 }
 
-TEST(GcodeNumbered, AreRefusedWithTheirPlace) {
+TEST(GcodeNumbered, AreRefusedWithTheirLocation) {
     const Refused rows[] = {{"M98", 1, "P word missing: M98 needs the number of a program"},
                             {"G0 X1 M98 P1", 7, "M98 needs a line"},
                             {"M98 P1 M3", 1, "M98 needs a line"},

@@ -90,7 +90,7 @@ TEST(GcodeTools, AreWrittenWithTheFewestDigitsThatReadBackAsTheSameNumber) {
     }
 }
 
-TEST(GcodeTools, FaultyTablesAreRefusedWithTheirPlace) {
+TEST(GcodeTools, FaultyTablesAreRefusedWithTheirLocation) {
     struct Row {
         const char* text;
         int line, column;

@@ -36,7 +36,7 @@ std::vector<std::string> reported(const std::string& program) {
 
 }  // namespace
 
-TEST(GcodePorts, OutputsKeepTheirPlaceBetweenTheMoves) {
+TEST(GcodePorts, OutputsKeepTheirOrderBetweenTheMoves) {
     EXPECT_THAT(reported("M62 P0\nG1 X1\nM63 P63 G1 X2\nM64 P2\nM65 P3 G0 X3\nM67 E0 Q-1.5\nM68 E1 Q2.25\nG1 X4"),
                 ElementsAre("out P0 1 moving", "X1", "out P63 0 moving", "X2", "out P2 1", "out P3 0", "X3",
                             "out E0 -1.5 moving", "out E1 2.25", "X4"));
@@ -44,7 +44,7 @@ TEST(GcodePorts, OutputsKeepTheirPlaceBetweenTheMoves) {
                 ElementsAre("out P6 1", "out E5 -1.25", "X1"));
 }
 
-TEST(GcodePorts, OutputsKeepTheirPlaceBesideAContour) {
+TEST(GcodePorts, OutputsKeepTheirOrderBesideAContour) {
     EXPECT_THAT(reported("G41.1 D2\nG1 X10\nM62 P1\nX20\nM65 P1 X30\nG40 G1 X40"),
                 ElementsAre("X10", "out P1 1 moving", "X20", "out P1 0", "X30", "X40"));
 }
@@ -67,7 +67,7 @@ TEST(GcodePorts, StateWhetherTheyNeedAStandstill) {
     EXPECT_EQ(rests, "-----rrr");
 }
 
-TEST(GcodePorts, AreRefusedWithTheirPlace) {
+TEST(GcodePorts, AreRefusedWithTheirLocation) {
     const Refused rows[] = {
         {"M62", 1, "P word missing: M62 needs the number of its output; write e.g. M62 P0"},
         {"M65 P64", 5, "the number of an output, from 0 to 63"},

@@ -166,7 +166,7 @@ RC_GTEST_PROP(GcodeProperties, ArcsWithRadiusHaveTheCentreOfArcsWithOffsets, ())
     RC_ASSERT(std::fabs(a[1].centre_second - b[1].centre_second) < 1e-6);
 }
 
-RC_GTEST_PROP(GcodeProperties, AnyBytesAreReadOrRefusedWithAPlaceInTheText, ()) {
+RC_GTEST_PROP(GcodeProperties, AnyBytesAreReadOrRefusedWithALocationInTheText, ()) {
     const std::string text = *rc::gen::container<std::string>(
         rc::gen::oneOf(rc::gen::element('G', 'X', 'Y', 'I', 'R', 'F', '0', '1', '2', '3', '8', '.', '-', ' ', '\n', '(',
                                         ')', '/', '%'),

@@ -168,7 +168,7 @@ int last_line(const std::string& program) {
 
 }  // namespace
 
-TEST(GcodeReader, RefusesWithPlaceWordNumberAndSentence) {
+TEST(GcodeReader, RejectsWithLocationWordNumberAndSentence) {
     for (const RefusedLine& row : refused) {
         SCOPED_TRACE(row.program);
         const auto program = testing::read(row.program);

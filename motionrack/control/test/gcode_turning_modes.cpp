@@ -53,7 +53,7 @@ TEST(GcodeTurning, EndsACycleAtTheContourEndWithTheModesOfTheProgram) {
     for (const Move& move : moves) EXPECT_EQ(move.end[1], 0);
 }
 
-TEST(GcodeTurning, AreRefusedWithTheirPlace) {
+TEST(GcodeTurning, AreRefusedWithTheirLocation) {
     const std::string before =
         "G21 G18 G90 F600\no1 sub\nG0 X10 Z2\nG1 Z-30\nX20\no1 endsub\no2 sub\nG0 X10 Z2\nG1 Z-30\nG1 X20 Z-20\no2 "
         "endsub\no3 sub\no3 endsub\n"

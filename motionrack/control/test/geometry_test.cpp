@@ -177,7 +177,7 @@ RC_GTEST_PROP(GeometryLaws, PositionsOnAnArcKeepItsRadiusAndMoveByTheTangent, ()
     for (int i = 0; i < axis_count; ++i) RC_ASSERT(std::fabs(out[i] - path.tangent_out[i]) < 1e-9);
 }
 
-RC_GTEST_PROP(GeometryLaws, TheWorstComponentIsTheGreatestOfManyTangents, ()) {
+RC_GTEST_PROP(GeometryLaws, TheMaximumComponentIsThatOfManyTangents, ()) {
     const RandomArc made = random_arc(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::arbitrary<bool>());
     const Geometry path = geometry_of(made.move, made.start);
     const Point max_error = max_tangent_components(path);

@@ -14,7 +14,7 @@ namespace {
 
 using sim::allocations;
 
-TEST(LookAheadPlanner, TakesNoMemoryForAMove) {
+TEST(LookAheadPlanner, AllocatesNothingForAMove) {
     MachineLimits limits;
     for (AxisLimits& axis : limits) axis = {true, -1e6, 1e6, 100, 1000, 1e5, 1, 1000};
     LookAheadPlanner planner(limits, Point{});
@@ -39,7 +39,7 @@ TEST(LookAheadPlanner, TakesNoMemoryForAMove) {
     EXPECT_GT(seconds, 5);
 }
 
-TEST(Curve, TakesNoMemoryForAMove) {
+TEST(Curve, AllocatesNothingForAMove) {
     MachineLimits limits;
     for (AxisLimits& axis : limits) axis = {true, -1e6, 1e6, 100, 1000, 1e5, 1, 1000};
     PathBuilder builder(limits, Point{});
@@ -70,7 +70,7 @@ TEST(Curve, TakesNoMemoryForAMove) {
     EXPECT_GT(length, 500);
 }
 
-TEST(AxisProfile, TakesNoMemory) {
+TEST(AxisProfile, AllocatesNothing) {
     const KinematicLimits limits = {100, 1000, 20'000};
     double seconds = 0;
     const std::uint64_t before = allocations();

@@ -64,7 +64,7 @@ TEST(TrapezoidalProfile, AShortWayIsATriangle) {
     EXPECT_DOUBLE_EQ(p.sample(0.2).position, 1);
 }
 
-TEST(TrapezoidalProfile, NoWayTakesNoTime) {
+TEST(TrapezoidalProfile, ZeroDistanceTakesNoTime) {
     const TrapezoidalProfile p(0, 20, 50);
     EXPECT_EQ(p.duration(), 0);
     EXPECT_EQ(p.sample(0).position, 0);

@@ -59,7 +59,7 @@ TEST(PartsOfAMove, InInverseTimeTakeTheirShareOfIt) {
     EXPECT_DOUBLE_EQ(remaining_move(whole, path, {2.5, 0, 0, 0, 0, 0}).feed, 2);
 }
 
-TEST(RestOfAMove, ContinuesFromAPlaceBesideThePath) {
+TEST(RestOfAMove, ContinuesFromAPositionBesideThePath) {
     for (const Move& whole : {helix(0.3, 0), helix(0.3, 0, false), helix(0.3, 2)}) {
         const Geometry path = geometry_of(whole, at_ten);
         for (double part = 0; part < 0.999; part += 0.1) {

@@ -94,7 +94,7 @@ TEST(FramePacer, AddsNothingUp) {
     EXPECT_EQ(pacer.max_error(), Duration{3});
 }
 
-TEST(FramePacer, SlowsDownAndHurries) {
+TEST(FramePacer, SlowsDownAndCatchesUp) {
     FramePacer slow(0.1, 10 * period);
     slow.due(Instant{0}, whole_seconds(1));
     EXPECT_EQ(slow.due(milliseconds(1), whole_seconds(1)), whole_seconds(1) + milliseconds(10));

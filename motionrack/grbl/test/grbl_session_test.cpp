@@ -101,7 +101,7 @@ TEST(GrblPort, HoldsAndResumes) {
     EXPECT_NEAR(b.axis(0), 0, 1e-3);
 }
 
-TEST(GrblPort, ForgetsWhatWaitedInAHoldAtAResetAndKeepsItsPosition) {
+TEST(GrblPort, DiscardsPendingLinesOfAHoldAtAResetAndKeepsItsPosition) {
     Bench b(three_axes());
     b.ask("G1 X100 F3000\n", 0.5);
     b.ask("!", 0.5);
@@ -193,7 +193,7 @@ TEST_P(JogThatIsCancelled, StopsAndContinuesFromThere) {
 }
 INSTANTIATE_TEST_SUITE_P(By, JogThatIsCancelled, testing::Values("\x85", "\xC2\x85", "!"));
 
-TEST(GrblPort, TakesNoJogWhileItRuns) {
+TEST(GrblPort, RejectsJogsWhileItRuns) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("G1 X50 F600\n$J=X1 F100\n$$\n$#\n$X\n$C\n$N\n"),
               "ok\r\nerror:8\r\nerror:8\r\nerror:8\r\nok\r\nerror:8\r\nerror:8\r\n");

@@ -100,7 +100,7 @@ std::string first_packet(std::mt19937& random) {
 }
 
 /// MOTIONRACK_PACKETS=N sets their number.
-TEST(Introduction, LetsNoForeignPacketActOnAMachineThatMoves) {
+TEST(Introduction, PreventsForeignPacketsFromActingOnAMachineThatMoves) {
     std::mt19937 random(static_cast<std::uint32_t>(seed_from_environment()));
     Bench undisturbed(three_axes()), b(three_axes());
     for (Bench* each : {&undisturbed, &b}) EXPECT_EQ(each->ask("G1 X200 F6000\n"), "ok\r\n");

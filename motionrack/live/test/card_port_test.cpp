@@ -69,7 +69,7 @@ std::string refusal(const std::string& text, const CardMap& map = four) {
     return port ? "" : port.error().message;
 }
 
-RC_GTEST_PROP(LivePort, WritesTwoBytesAtTheRegistersPlaceAndNoOthers, ()) {
+RC_GTEST_PROP(LivePort, WritesTwoBytesAtTheRegistersOffsetAndNoOthers, ()) {
     const bool mapped = *rc::gen::arbitrary<bool>(), bytes = *rc::gen::arbitrary<bool>();
     const auto offset = 2 * *rc::gen::inRange<std::size_t>(0, 3000),
                stride = 2 * *rc::gen::inRange<std::size_t>(1, 600);
@@ -88,7 +88,7 @@ RC_GTEST_PROP(LivePort, WritesTwoBytesAtTheRegistersPlaceAndNoOthers, ()) {
     RC_ASSERT(bytes_of(path) == expected);
 }
 
-RC_GTEST_PROP(LivePort, MovesOneByteAtThePortsPlaceAndNoOthers, ()) {
+RC_GTEST_PROP(LivePort, MovesOneByteAtThePortsOffsetAndNoOthers, ()) {
     const bool mapped = *rc::gen::arbitrary<bool>();
     const auto offset = *rc::gen::inRange<std::size_t>(0, 6000), stride = *rc::gen::inRange<std::size_t>(1, 600);
     const auto number = *rc::gen::inRange<std::uint8_t>(0, 3);

@@ -68,10 +68,10 @@ void run(const char* name, std::string (*check)(std::string_view), std::uint64_t
     }
 }
 
-TEST(MarkFuzz, DamagedDrawingsAreReadOrRefusedWithTheirPlace) {
+TEST(MarkFuzz, DamagedDrawingsAreReadOrRefusedWithTheirLocation) {
     run("drawing", fuzz::check_drawing, 4'000);
 }
-TEST(MarkFuzz, DamagedJobsAreRunOrRefusedWithTheirPlace) {
+TEST(MarkFuzz, DamagedJobsAreRunOrRefusedWithTheirLocation) {
     run("mark_job", fuzz::check_job, 400);
 }
 

@@ -119,7 +119,7 @@ TEST(MarkJob, CirclesTextAndGcodeAreMarkedAsDrawn) {
     EXPECT_LE(gcode.on.deviation.max_mm, 0.001);
 }
 
-TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
+TEST(MarkJob, WrongJobsAreRefusedWithTheirLocations) {
     const auto first = [](const std::string& text) {
         const JobRead read = read_job(text, "j.toml");
         return read.errors.empty() ? std::string() : read.errors[0].text();

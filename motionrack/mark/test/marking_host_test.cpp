@@ -174,7 +174,7 @@ TEST(MarkLine, AWayThatAPartNeverGoesIsRefused) {
         HasSubstr("Part 4 does not reach the sensor within 1000 s: the belt moves 50 until then, the part is 60 away"));
 }
 
-TEST(MarkLine, WrongPartsAreReportedAllAtOnceWithTheirPlaces) {
+TEST(MarkLine, WrongPartsAreReportedAllAtOnceWithTheirLocations) {
     const std::string all = errors_of(
         "[drawing]\ntext = 'N{m}'\n[belt]\nvelocity_mm_s = 100\n[fly]\nmode = 'mcbsp'\ntracking_error_us = "
         "50\n[parts]\ncount = 3\nstart = 'equidistant'\ntrack_delay_mm = 5\n");

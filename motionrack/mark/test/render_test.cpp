@@ -56,7 +56,7 @@ void expect_drawable(const std::string& svg) {
     EXPECT_THAT(svg, Not(HasSubstr("inf")));
 }
 
-TEST(MarkPicture, ShowsTheDrawingBothPartsTheFieldAndTheWorstPlace) {
+TEST(MarkPicture, ShowsTheDrawingBothPartsTheFieldAndTheMaximumDeviation) {
     const Shown s = shown(belt_job + "[fly]\nmode = 'encoder'\n");
     EXPECT_THAT(titles(s), ElementsAre("As drawn", "With correction", "Without correction", "In the field",
                                        "Maximum deviation with correction"));

@@ -85,7 +85,7 @@ TEST(SvgReader, SizesAndTransformsGiveMillimetres) {
                     .strokes.empty());
 }
 
-TEST(SvgReader, WhatItCannotDrawIsRefusedWithItsPlace) {
+TEST(SvgReader, WhatItCannotDrawIsRefusedWithItsLocation) {
     EXPECT_THAT(refusal("<svg>\n <g>\n  <text>A</text></g></svg>"), HasSubstr("d.svg:3:4: the element 'text'"));
     EXPECT_THAT(refusal("<svg>\n<path id='d' d='M0 0\nL1 x'/></svg>"), HasSubstr("d.svg:3:4: d of path"));
     EXPECT_THAT(refusal("<svg><path d='L1 1'/></svg>"), HasSubstr("d.svg:1:15:"));

@@ -59,7 +59,7 @@ TEST(ClockPacer, WaitsInPartsSoThatEveryCommandIsProcessed) {
     EXPECT_EQ(let_on(pacer, milliseconds(2)), 40);  // 200 ms, 5 ms at a time
 }
 
-TEST(ClockPacer, HurriesAfterASmallDelayAndGivesUpALargeOne) {
+TEST(ClockPacer, CatchesUpASmallDelayAndGivesUpALargeOne) {
     SleepingClock clock;
     ClockPacer pacer(clock, ClockMode::real, 1);
     let_on(pacer, Instant{0});

@@ -112,7 +112,7 @@ TEST(JogLease, ThatOnlyRenewsMovesNothingAfterTheEndOfTheTravel) {
     EXPECT_THAT(o.machine->status().reason, HasSubstr("the - soft limit was reached. Move it the other way."));
 }
 
-TEST(JogLease, OfTwoAxesIsLetGoOneByOne) {
+TEST(JogLease, OfTwoAxesIsReleasedOneByOne) {
     Operated o(two_axes());
     for (const double t : {0.1, 0.2, 0.3})
         o.at(t, [](Machine& m) {

@@ -349,7 +349,7 @@ TEST(RealCard, StandsForACardThatMovesNoAxis) {
     EXPECT_EQ(refused({"bench=port:/dev/zero"}), "");
 }
 
-TEST(RealCard, IsNamedWithItsPlace) {
+TEST(RealCard, IsNamedWithItsAddress) {
     const Result<LivePlace> good = read_live_place("bench=port:/dev/port,offset=0x300,width=8");
     ASSERT_TRUE(good) << good.error().message;
     EXPECT_EQ(good->card, "bench");

@@ -337,7 +337,7 @@ TEST(Machine, ReportsSpindleAndCoolantWhenTheProgramHasPassedTheirWords) {
     EXPECT_FALSE(o.machine->status().flood);
 }
 
-TEST(Machine, TakesPlacesDeclaredForSeveralAxesAtOnce) {
+TEST(Machine, AcceptsPositionsOfSeveralAxesAtOnce) {
     Operated o(router());
     o.at(0.1, [](Machine& m) {
         for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, 5));

@@ -10,7 +10,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(Machine, IsDisabledAtFirstAndTakesNoMotion) {
+TEST(Machine, IsDisabledAtFirstAndRejectsMotion) {
     auto machine = *Machine::make(two_axes(), {});
     EXPECT_EQ(machine->state(), MachineState::disabled);
     EXPECT_THAT(machine->jog('X', 5).error().message, HasSubstr("enable it first"));
@@ -103,7 +103,7 @@ TEST(Machine, MovesNoAxisThatIsDisabled) {
     EXPECT_DOUBLE_EQ(o.y(), 5);
 }
 
-TEST(Machine, RefusesAJogThatItsAxisCannotDoInTheAnswerToTheOrder) {
+TEST(Machine, RejectsAnImpossibleJogInTheAnswerToTheCommand) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_THAT(refusal_of(m.jog('X', 1e6)), HasSubstr("the jog speed is 1e+06 mm/s; it must be at most"));

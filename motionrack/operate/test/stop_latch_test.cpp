@@ -138,7 +138,7 @@ void expect_reset_does_not_release(const std::function<void(Machine&)>& later_st
     EXPECT_EQ(o.x(), stood);
 }
 
-TEST(StopLatch, IsNotReleasedByAResetThatCameBeforeAStopOrder) {
+TEST(StopLatch, IsNotReleasedByAResetBeforeAStopCommand) {
     expect_reset_does_not_release([](Machine& m) { m.stop(); });
 }
 

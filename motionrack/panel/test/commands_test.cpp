@@ -89,7 +89,7 @@ TEST(Operator, StopsAnythingWithoutAnyRight) {
     EXPECT_EQ(a.machine->state(), operate::MachineState::error_stop);
 }
 
-TEST(Operator, SetsSpeedsStepsZeroAndPlaces) {
+TEST(Operator, SetsSpeedsStepsZeroAndPositions) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
@@ -244,7 +244,7 @@ TEST(CardsByHand, HaveWiresAndFaults) {
     a.run(1);
 }
 
-TEST(Tables, DescribeEveryOrderAndQueryInOpenApiAndOnThePage) {
+TEST(Tables, DescribeEveryCommandAndQueryInOpenApiAndOnThePage) {
     const json& api = Panel::openapi();
     const std::string page = api_reference();
     std::set<std::string_view> names;

@@ -62,7 +62,7 @@ std::string alarm_of(const Asked& a) {
     return out;
 }
 
-TEST(JournalThatFails, HoldsTheMachineAndLetsNothingBegin) {
+TEST(JournalThatFails, HoldsTheMachineAndPreventsEveryStart) {
     const Folder folder;
     auto opened = journal::Journal::open((folder.path / "rack.journal").string());
     ASSERT_TRUE(opened) << opened.error().message;

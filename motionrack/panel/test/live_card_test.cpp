@@ -101,7 +101,7 @@ TEST(RealCardOnThePage, IsReadInServiceOnly) {
     a.run(10.1);
 }
 
-TEST(RealCardOnThePage, IsTouchedByNoOrderOfTheVirtualOne) {
+TEST(RealCardOnThePage, IsNotAffectedByCommandsToTheVirtualOne) {
     live::MonotonicClock clock;
     operate::ClockPacer pacer(clock, operate::ClockMode::real, 1);
     PanelSettings settings;

@@ -58,7 +58,7 @@ TEST(JumpWatch, FindsAStopOfASlowAxisAtEachInstantOfItsPeriod) {
     }
 }
 
-TEST(JumpWatch, FindsNothingInLooksThatAreTooRare) {
+TEST(JumpWatch, FindsNothingInSamplesThatAreTooRare) {
     int times = 0;
     EXPECT_EQ(sample_jump([](double t) { return std::min(t, 0.2) * 55'000; }, times, milliseconds(5)).hz, 0);
 }

@@ -156,7 +156,7 @@ const std::vector<BadFile>& bad_wiring() {
     return files;
 }
 
-TEST(TomlReader, ArraysHaveTheirValuesWithTheirPlaces) {
+TEST(TomlReader, ArraysHaveTheirValuesWithTheirLocations) {
     const Result<TomlNode> root = parse_toml("a = [1, [2.5, 'x'],\n  true]\n[[t]]\nk = 1\n[[t]]\nk = 2\n", "f");
     ASSERT_TRUE(root) << root.error().text();
     const TomlNode& a = root->children[0];

@@ -161,7 +161,7 @@ TEST(Databoard4002InARack, ACopyGoesTheSameWay) {
     EXPECT_EQ(copy->rack().kernel().state_hash(), host.session->rack().kernel().state_hash());
 }
 
-TEST(Databoard4002InARack, WrongRackFilesAreRefusedWithThePlace) {
+TEST(Databoard4002InARack, WrongRackFilesAreRefusedWithTheLocation) {
     const RackReading same =
         read_rack_text("[card.c1]\ntype = \"databoard4002\"\n[card.c2]\ntype = \"databoard4002\"\n");
     ASSERT_EQ(same.errors.size(), 1u);

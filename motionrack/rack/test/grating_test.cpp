@@ -138,7 +138,7 @@ TEST(GratingBusInARack, ASlaveHoldsTheScalesThatItsHostAddresses) {
     EXPECT_FALSE(rack.card("c2")->inspect("3.ADDRESS"));
 }
 
-TEST(GratingBusInARack, AWrongListIsRefusedWithItsPlace) {
+TEST(GratingBusInARack, AWrongListIsRefusedWithItsLocation) {
     const auto errors = [](const std::string& keys) {
         const RackReading reading = read_rack_text("[card.c1]\ntype = \"grating_bus\"\n" + keys, "r.toml");
         return reading.errors.empty() ? std::string() : reading.errors[0].text();

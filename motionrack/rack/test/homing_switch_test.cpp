@@ -101,7 +101,7 @@ TEST_P(HomeSwitchComingTwice, ThatClosesOnTheSlowApproachIsNotHome) {
         "before the position at which it became active in this search");
 }
 
-TEST_P(HomeSwitchComingTwice, ThatClosesFarBeforeItsPlaceForAWhileIsNotHome) {
+TEST_P(HomeSwitchComingTwice, ThatClosesFarBeforeItsPositionForAWhileIsNotHome) {
     expect_refused(homed(axis_from(20), "X", GetParam(),
                          {{"SEARCH_WAIT", 3, "home.stuck_closed"}, {"BACK_WAIT", 1, "home.stuck_closed=0"}}),
                    "beyond the position at which it was released");
@@ -146,13 +146,13 @@ TEST_P(HomeReference, ThatSticksOnTheWayOffItIsNotHome) {
         "beyond the position at which it was released");
 }
 
-TEST_P(HomeReference, ThatActsBeforeItsPlaceIsNotHome) {
+TEST_P(HomeReference, ThatActsBeforeItsPositionIsNotHome) {
     expect_refused(
         homed(carriage_from(127), "board", GetParam(), {{GetParam() % 2 == 0 ? "SLOW" : "SEARCH", 2, "ref.broken"}}),
         "before the position at which it was released");
 }
 
-TEST(HomeReferenceTwice, ThatActedFarBeforeItsPlaceIsNotHome) {
+TEST(HomeReferenceTwice, ThatActedFarBeforeItsPositionIsNotHome) {
     expect_refused(homed(carriage_from(110), "board", 2, {{"SEARCH", 3, "ref.broken"}, {"BACK", 1, "ref.broken=0"}}),
                    "beyond the position at which it was released");
 }

@@ -82,7 +82,7 @@ TEST(RackHomes, UpwardsItFindsWhereTheSwitchIsReleased) {
     EXPECT_NEAR(out.axes[1].counter_position, 1.05, 1.01 / 640);
 }
 
-TEST(RackHomes, LowerOrdersGoFirst) {
+TEST(RackHomes, LowerSequenceNumbersGoFirst) {
     const HomingOutcome out = homed(std::string(two_axes) + "[axis.Y.homing]\nsequence = 2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_DOUBLE_EQ(out.axes[0].began_s, 0);
@@ -182,7 +182,7 @@ TEST(RackHomes, CallsTheIndexByItsWayBehindTheSwitch) {
     EXPECT_NEAR(out.axes[0].counter_position, 2 - 2.1, 0.5 / 640);
 }
 
-TEST(RackHomes, NoAxisToAnIndexOfUnknownPlace) {
+TEST(RackHomes, NoAxisToAnIndexOfUnknownPosition) {
     std::string text = two_axes;
     text.erase(text.find("home_offset_mm = 0"), 18);
     const RackReading reading = read_rack_text(text);
@@ -195,7 +195,7 @@ TEST(RackHomes, NoAxisToAnIndexOfUnknownPlace) {
     EXPECT_THAT(out.ended.error().message, HasSubstr("give it home_offset_mm (position of the index)"));
 }
 
-TEST(RackHomes, WarnsOfAnIndexPlaceThatItsCardDoesNotLookAt) {
+TEST(RackHomes, WarnsOfAnIndexPositionThatItsCardDoesNotCheck) {
     const RackReading reading = read_rack_text(
         "[card.board]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"board\"\n[axis.X.servo]\n[axis.X.switches]\n"
         "cam_from_mm = 20\ncam_to_mm = 25\n[axis.X.homing]\nmethod = 4\nindex_after_mm = 1\n");

@@ -278,7 +278,7 @@ TEST_P(Lossless, ALateHostContinuesAtTheProgrammedFeed) {
     }
 }
 
-TEST(Host, LooksAtBrakingAxesEveryFewMicrosecondsAndNotAllTheTime) {
+TEST(Host, PollsDeceleratingAxesEveryFewMicrosecondsAndNotAllTheTime) {
     RackConfig config = router();
     config.cards[0].mcx314.bus_access_ns = 60;
     constexpr double asked = 0.5;

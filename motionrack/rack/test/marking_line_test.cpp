@@ -274,7 +274,7 @@ TEST(MarkingLine, ProfilesAndWiresSayOtherwiseWhereTheFileDoes) {
     EXPECT_NEAR(static_cast<double>(ramp.peek("ENCODER0")), -1500, 1);
 }
 
-TEST(MarkingLine, WhatDoesNotFitIsReportedWithItsPlace) {
+TEST(MarkingLine, WhatDoesNotFitIsReportedWithItsLocation) {
     const auto refused = [](const std::string& text) {
         const RackReading reading =
             read_rack_text("[card.scan]\ntype = \"rtc5\"\n[card.m]\ntype = \"mcx314\"\n" + text);

@@ -65,7 +65,7 @@ TEST(ProgrammedPath, UsesTheToleranceOfTheMoveThatAllowsThePosition) {
     EXPECT_EQ(program.path.distance(part_of(1), 9.8, 5, 0).tolerance_mm, 0) << "G61";
 }
 
-TEST(ProgrammedPath, LooksAtTheMovesWhereTheMachineIsAlone) {
+TEST(ProgrammedPath, ComparesOnlyWithTheMovesWhereTheMachineIs) {
     Written program({0, 0});
     for (int i = 1; i <= 40; ++i) program.line(i, i % 2 == 0 ? 0 : 1);
     program.line(40, 50);
@@ -81,7 +81,7 @@ TEST(ProgrammedPath, LooksAtTheMovesWhereTheMachineIsAlone) {
         << "in a dwell, the end of the move before";
 }
 
-TEST(ProgrammedPath, LooksNoFartherThanTheMachineCanBe) {
+TEST(ProgrammedPath, ComparesNoFartherThanTheMachineCanBe) {
     Written program({0, 0});
     program.line(10, 0);
     program.line(10, 30);

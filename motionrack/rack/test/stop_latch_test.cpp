@@ -126,7 +126,7 @@ TEST(LatchedStop, OfAWatchdogInADwellEndsTheProgram) {
     EXPECT_THAT(ran.error(), HasSubstr("its card was reset and counts from 0"));
 }
 
-TEST(LatchedStop, OfTheStopOrderInADwellComesAtOnce) {
+TEST(LatchedStop, OfTheStopCommandInADwellActsAtOnce) {
     const StoppedRun ran = run_stopped(stop_axes, dwelling, {}, {"stop@1s"});
     ASSERT_FALSE(ran.outcome.ended);
     EXPECT_EQ(ran.outcome.ended.error().kind, ErrorKind::stopped);

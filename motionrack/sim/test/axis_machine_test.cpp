@@ -116,7 +116,7 @@ TEST(AxisMechanics, SwitchesActAtTheirPulseAndReleaseAfterTheHysteresis) {
     EXPECT_EQ(w.scribe.lines, expected);
 }
 
-TEST(AxisMechanics, AHomeSwitchIsActiveAtAndBelowItsPlaceAlreadyAtTheStart) {
+TEST(AxisMechanics, AHomeSwitchIsActiveAtAndBelowItsPositionAlreadyAtTheStart) {
     AxisMechanicsSettings s = plain();
     s.home.position = 0;
     s.home.bounce = Duration{0};
@@ -179,7 +179,7 @@ TEST(AxisMechanics, AStuckSwitchKeepsItsLevelWhateverTheMachineDoes) {
     EXPECT_FALSE(w.machine.fault("limit_plus.nonsense", 1, w.kernel.now()));
 }
 
-RC_GTEST_PROP(AxisMechanics, ASwitchTogglesExactlyWhereThePositionPassesItsPlace, ()) {
+RC_GTEST_PROP(AxisMechanics, ASwitchTogglesExactlyWhereThePositionPassesItsPosition, ()) {
     AxisMechanicsSettings s = plain();
     s.axle.travel_per_rev =
         *rc::gen::element(linear_travel(5), linear_travel(5.08), rotary_travel(7), rotary_travel(90));

@@ -73,7 +73,7 @@ const std::vector<sim::PulseLaw> forwards = {{Instant{0}, microseconds(1), 1}};
 const std::vector<sim::PulseLaw> to_and_fro = {
     {Instant{0}, microseconds(1), 1}, {milliseconds(6), microseconds(1), -1}, {milliseconds(10), microseconds(1), 0}};
 
-TEST(LineEncoder, CountsWhatThePlaceTurns) {
+TEST(LineEncoder, CountsTheRotation) {
     Disc w(small_disc(), to_and_fro);
     w.run(milliseconds(6));
     EXPECT_EQ(w.part.count(), 600);
@@ -84,7 +84,7 @@ TEST(LineEncoder, CountsWhatThePlaceTurns) {
     EXPECT_EQ(w.counter.decoder.illegal(), 0u);
 }
 
-TEST(LineEncoder, EdgesComeExactlyWhenThePlaceReachesThem) {
+TEST(LineEncoder, EdgesComeExactlyWhenThePositionReachesThem) {
     Disc w(small_disc(), forwards);
     w.run(milliseconds(1));
     ASSERT_EQ(w.counter.edges.size(), 100u);
@@ -92,13 +92,13 @@ TEST(LineEncoder, EdgesComeExactlyWhenThePlaceReachesThem) {
         EXPECT_EQ(w.counter.edges[i], microseconds(10 * static_cast<std::int64_t>(i + 1)));
 }
 
-TEST(LineEncoder, TheIndexComesOnceATurnAtTheSamePlaceFromBothSides) {
+TEST(LineEncoder, TheIndexComesOnceATurnAtTheSamePositionFromBothSides) {
     Disc w(small_disc(), {{Instant{0}, microseconds(1), 1}, {milliseconds(13), microseconds(1), -1}});
     w.run(milliseconds(20));
     EXPECT_EQ(w.counter.index_at, (std::vector<std::int64_t>{400, 800, 1200, 1200, 800}));
 }
 
-TEST(LineEncoder, EdgesOfAPlaceThatIsCoarserThanTheCountsComeOneAfterTheOther) {
+TEST(LineEncoder, EdgesOfAPositionThatIsCoarserThanTheCountsComeOneAfterTheOther) {
     Disc w({.counts_per_turn = 4000, .position_per_turn = 1000}, {{Instant{0}, microseconds(10), 1}});
     w.run(milliseconds(10));
     w.run(microseconds(9));

@@ -64,7 +64,7 @@ TEST(ScanHead, AllTheSameHowARunIsCut) {
     EXPECT_EQ(whole.kernel.state_hash(), cut.kernel.state_hash());
 }
 
-TEST(ScanHead, NothingIsAllocatedInARunAndPointsBeyondTheRoomAreCounted) {
+TEST(ScanHead, AllocatesNothingInARunAndCountsPointsBeyondItsCapacity) {
     StationSettings settings = plain_head();
     settings.galvo.ideal_mirrors = false;
     settings.galvo.dead_time_us = 70;

@@ -30,7 +30,7 @@ TEST(SvgScatter, DrawsADotForEachValueAndACrossForWhatEndedBadly) {
     EXPECT_THAT(svg, Not(testing::AnyOf(HasSubstr("nan"), HasSubstr("<b>"))));
 }
 
-TEST(SvgScatter, HasNamesInPlaceOfNumbers) {
+TEST(SvgScatter, HasNamesInsteadOfNumbers) {
     const std::string svg = svg_scatter({"time, s",
                                          "fault",
                                          {"none", "a fault with a name that is far too long for its place"},
@@ -50,7 +50,7 @@ TEST(SvgScatter, DrawsNothingOneAndVeryMany) {
     EXPECT_LE(count_of(svg_scatter({"t", "x", {}, {many}}), "<circle"), max_dots);
 }
 
-TEST(SvgMap, DrawsCellsWhereEveryPlaceIsThereAndDotsElsewhere) {
+TEST(SvgMap, DrawsCellsForACompleteGridAndDotsElsewhere) {
     SvgMap map{"time, s", "x", "y", {}};
     for (const double x : {1.0, 2.0, 10.0})
         for (const double y : {5.0, 7.0}) map.spots.push_back({x, y, x * y, x == 2});

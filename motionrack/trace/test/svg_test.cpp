@@ -65,7 +65,7 @@ TEST(SvgPath, ArrowsTellTheWayAndNeverGrowIntoACrowd) {
     EXPECT_LE(arrows, 41U);
 }
 
-TEST(SvgPath, AStopLooksUnlikeTheWorstPlace) {
+TEST(SvgPath, DrawsAStopUnlikeTheMaximumDeviation) {
     ReportData data = corner();
     data.stop = ReportStop{1, 2, {10, 80, 5}, "Limit <Y+>"};
     const std::string svg = svg_path(data, PathView::plan);

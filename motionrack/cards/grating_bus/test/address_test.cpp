@@ -83,7 +83,7 @@ TEST(GratingBus, HostsInPerfectStepThatWantOtherScalesContendForTheAddress) {
     EXPECT_GE(careful.cards[0]->counter(Card::alien), 18);
 }
 
-TEST(GratingBus, AListOfAddressesIsReadFromTextOrRefusedWithItsPlace) {
+TEST(GratingBus, AListOfAddressesIsReadFromTextOrRefusedWithItsLocation) {
     EXPECT_EQ(*addresses_from_text("5, 2, 9"), (std::vector<int>{5, 2, 9}));
     EXPECT_EQ(*addresses_from_text(" 127 ,0 "), (std::vector<int>{127, 0}));
     const auto wrong = [](std::string_view text) { return addresses_from_text(text).error().message; };

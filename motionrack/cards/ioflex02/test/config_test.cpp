@@ -193,7 +193,7 @@ RC_GTEST_PROP(Ioflex02Image, BytesAreTheSameAfterTheirDigits, (std::vector<std::
     RC_ASSERT(*bytes_of_hex(hex_text(bytes)) == bytes);
 }
 
-TEST(Ioflex02Image, DigitsThatAreNoneAreReportedWithTheirPlace) {
+TEST(Ioflex02Image, DigitsThatAreNoneAreReportedWithTheirLocation) {
     for (const char* wrong : {"7", "78d", "78 d", "-1", "0x", "78zz"}) EXPECT_FALSE(bytes_of_hex(wrong)) << wrong;
     EXPECT_NE(bytes_of_hex("78zz").error().message.find("Digits 3 and 4"), std::string::npos);
     EXPECT_EQ(*bytes_of_hex("78dA"), (std::vector<std::uint8_t>{0x78, 0xDA}));

@@ -39,7 +39,7 @@ struct OnScript {
 
 // ---- exact traffic
 
-TEST(Flex2PosTraffic, InitLooksBeforeItWritesAndFeedsTheImageTwoBytesAtATime) {
+TEST(Flex2PosTraffic, InitReadsBeforeItWritesAndSendsTheImageTwoBytesAtATime) {
     ScriptedPort port;
     port.good_card();
     Flex2Pos card(port, port);

@@ -170,7 +170,7 @@ TEST(ManualHome, HomesWhileTheButtonIsHeld) {
     EXPECT_DOUBLE_EQ(rig.position(), 1.0);
 }
 
-TEST(ManualHome, LetGoItStopsAndThePositionIsNotValid) {
+TEST(ManualHome, ReleasedItStopsAndThePositionIsNotValid) {
     ManualRig rig;
     ASSERT_TRUE(rig.manual.home(rig_settings(2), rig.now()));
     rig.run(milliseconds(200));

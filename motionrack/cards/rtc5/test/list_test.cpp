@@ -144,7 +144,7 @@ TEST(Rtc5List, ListsThatDoNotFitTheMemoryAreRefusedHoweverLongTheyAre) {
     }
 }
 
-TEST(Rtc5List, NumbersThatAreNoneOrOutOfRangeAreRefusedWithTheirPlace) {
+TEST(Rtc5List, NumbersThatAreNoneOrOutOfRangeAreRefusedWithTheirLocation) {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
     EXPECT_FALSE(list_command(Op::mark_abs, {nan, 0}));
     EXPECT_FALSE(list_command(Op::set_fly_x, {infinite}));
@@ -314,7 +314,7 @@ TEST(Rtc5Card, EverySettingOfOneCardLeavesAnotherAlone) {
     EXPECT_EQ(b.last_x(), 9);
 }
 
-TEST(Rtc5List, TheTimeToRestDoesNotDependOnWhoLooks) {
+TEST(Rtc5List, TheTimeToRestDoesNotDependOnObservers) {
     for (const double target :
          {51'100.0, 51'200.0, 51'300.0, 102'400.0}) {  // 511, 512, 513, 1024 ticks: ends of blocks
         Rig seen, unseen;

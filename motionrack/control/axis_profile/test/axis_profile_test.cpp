@@ -262,7 +262,7 @@ TEST(ChangeOfVelocity, IsTheQuickestOfAllTravelsToItsVelocity) {
 }
 
 /// A profile to the final position of a velocity change takes no longer, so it is never faster than that change.
-TEST(ChangeOfVelocity, IsTheTravelToWhereItEnds) {
+TEST(ChangeOfVelocity, EqualsTheProfileToItsEndPosition) {
     Tasks tasks(12);
     for (int i = 0; i < 20'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();

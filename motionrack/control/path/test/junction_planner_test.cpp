@@ -72,7 +72,7 @@ TEST(JunctionPlanner, DecidesALongSequenceWithoutItsEnd) {
     for (unsigned seed = 1; seed <= 20; ++seed) chosen(random_row(seed, 30));
 }
 
-TEST(Leg, WithoutRoomForItsTurnsIsNoWay) {
+TEST(Leg, TooShortForItsBlendsHasNoProfile) {
     const LegLimits leg{0.1, 100, 1000, 20'000};
     Junction turn;
     turn.velocity = 10;

@@ -56,7 +56,7 @@ void for_random_programs(Check check) {
 /// Some program uses more than this share of its tolerance, or the law says nothing.
 constexpr double used_share = 0.5;
 
-TEST(CurveLaws, PlaceTangentAndBendMeetWherePiecesDo) {
+TEST(CurveLaws, PositionTangentAndCurvatureAreContinuousAtJunctions) {
     for_random_programs([](const Case& one) {
         const CubicSegment* last = nullptr;
         for (const PathElement& item : one.items) {
@@ -225,7 +225,7 @@ double part_of_tolerances(const Geometry& line, const Point& at, double toleranc
     return part(low);
 }
 
-TEST(CurveLaws, RotaryAxesStayWithinTheirToleranceAtTheSamePlace) {
+TEST(CurveLaws, RotaryAxesStayWithinTheirToleranceAtTheSamePosition) {
     double max_error = 0;
     const auto shown = [&max_error] { return max_error > used_share; };
     for_programs(300, shown, [&max_error](const Case& one) {

@@ -126,7 +126,7 @@ TEST(CHdf5, AFullDiskAndAFolderThatIsNotThereAreSentences) {
     std::filesystem::remove(csv);
 }
 
-TEST(CHdf5, AnEndThatHasNoRoomIsReportedAndTheFileDoesNotTakeItsName) {
+TEST(CHdf5, AnEndOnAFullDiskIsReportedAndTheFileDoesNotGetItsName) {
     World world;
     world.set_up(1, 4000);
     const std::string h5 = temporary("end.h5"), part = h5 + ".incomplete";

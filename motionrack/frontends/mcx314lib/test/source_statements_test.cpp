@@ -117,7 +117,7 @@ TEST(Mcx314libArcs, OfAnyTwoAxesGoTheirWayRound) {
     }
 }
 
-TEST(Mcx314libArcs, BeginWhereTheAxesStandWhateverNumbersThatPlaceHas) {
+TEST(Mcx314libArcs, BeginAtTheAxesPositionsWhateverTheirNumbers) {
     const Open chip;
     set_up();
     LPS(x, 5'000);

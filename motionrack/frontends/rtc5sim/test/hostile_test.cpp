@@ -71,7 +71,7 @@ TEST(Rtc5simHostile, NumbersThatAreNoneChangeNoSetting) {
     EXPECT_EQ(y, -600);
 }
 
-TEST(Rtc5simHostile, SignalsChannelsAndPlacesAreLookedThrough) {
+TEST(Rtc5simHostile, SignalsChannelsAndPositionsAreChecked) {
     const Session session;
     rtc5sim_question_us(0);
     const UINT before = get_input_pointer();

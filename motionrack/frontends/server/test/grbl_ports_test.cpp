@@ -121,7 +121,7 @@ TEST_F(SenderPorts, CloseConnectionsOfOtherProgramsWithoutAnyEffect) {
     }
 }
 
-TEST_F(SenderPorts, MakeRoomForASenderAmongSilentConnections) {
+TEST_F(SenderPorts, CloseASilentConnectionForASender) {
     settings_.observers = 1;
     start();
     SenderClient first = tcp(), second = tcp();

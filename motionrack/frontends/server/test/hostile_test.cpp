@@ -179,7 +179,7 @@ TEST(HostileStream, ThatAsksTogetherWithOthersOfItsAddressIsRefused) {
     EXPECT_TRUE(one.exchange({{"command", "stop"}}).value("done", false));
 }
 
-TEST(HostileStream, ThatReadsNoAnswersIsLetGo) {
+TEST(HostileStream, ThatReadsNoAnswersIsClosed) {
     Running running([](ServerSettings& settings) { settings.limits.texts_waiting = 50; });
     WebClient client(running.port(), false, true);
     ASSERT_EQ(client.upgrade().status, 101);

@@ -81,7 +81,7 @@ TEST_F(PageServer, RejectsCommandsWithoutAToken) {
     EXPECT_TRUE(running.audited("enable", 403));
 }
 
-TEST_F(PageServer, PairsByACodeAndTakesOrdersWithItsToken) {
+TEST_F(PageServer, PairsByACodeAndAcceptsCommandsWithItsToken) {
     const std::string code = running.served->door().start_code();
     const WebAnswer paired = client.ask("POST", "/api/pair", nlohmann::json{{"code", code}, {"name", "anna"}}.dump());
     ASSERT_EQ(paired.status, 200) << paired.body;

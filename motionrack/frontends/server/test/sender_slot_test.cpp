@@ -75,18 +75,19 @@ TEST_F(SenderPorts, ExecuteNoRestOfALineWhoseBeginningWasIgnored) {
 TEST_F(SenderPorts, ExecuteAResetInALineWhoseBeginningWasIgnoredAndTheLineBehindIt) {
     start();
     auto silent = std::make_unique<SenderClient>(tcp());
-    silent->hear(banner);
+    silent->receive(banner);
     SenderClient sender = tcp();
-    sender.hear("]\r\n");
+    sender.receive("]\r\n");
+    EXPECT_THAT(sender.ask("?", ">\r\n"), StartsWith("<Idle|"));
     EXPECT_THAT(sender.ask("G1 F600 X5?", ">\r\n"), StartsWith("<Idle|"));
     silent.reset();
-    EXPECT_EQ(sender.hear(banner), banner);
+    EXPECT_EQ(sender.receive(banner), banner);
     EXPECT_EQ(sender.ask("\x18", banner), banner);
     EXPECT_EQ(sender.ask("G1 X1 F600\n"), "ok\r\n");
     EXPECT_THAT(sender.until("Idle|MPos:1.000"), HasSubstr("MPos:1.000,0.000"));
 }
 
-TEST_F(SenderPorts, KeepThePlaceOfASenderThatComesBackFreeOfObservers) {
+TEST_F(SenderPorts, KeepTheSlotOfASenderThatReconnectsFreeOfObservers) {
     start();
     auto sender = std::make_unique<SenderClient>(tcp());
     sender->receive(banner);
