@@ -35,7 +35,7 @@ class SwitchEdges {
   public:
     /// Begins a search. Without the hysteresis edges are not compared.
     void begin(std::optional<double> hysteresis, double repeats);
-    /// Records a release on the way away: at `way`, or up to `within` before.
+    /// Records a release on the way away: at `distance`, or up to `within` before.
     void released(double distance, double within);
     /// Records an activation on the way towards the switch, likewise; compares it with earlier edges of this search.
     std::optional<EdgeConflict> acted(double distance, double within);

@@ -15,7 +15,7 @@ namespace motionrack::rack {
 struct RackParts {
     double part_pitch = 100;  ///< part pitch
     double first_part = 0;    ///< travel at which the first part's edge is at the sensor
-    double length = 10;       ///< length of a part, less than `every`
+    double length = 10;       ///< length of a part, less than `part_pitch`
 };
 
 /// Conveyor under a scan head: a belt (mm) or a rotary table (degrees); see parts::ConveyorSettings.

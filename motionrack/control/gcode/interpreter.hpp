@@ -129,7 +129,7 @@ class Interpreter {
     Point program_position() const;                     ///< in the active work system, mm and degrees
     std::int32_t line_number() const { return line_; }  ///< number of the last line
     /// Stores the result of the probing move of the last line (CanonCall::probe): the edge `at`, valid if `hit`, and
-    /// the final position `stands`. The next line starts there. Without this call the move counts as complete and
+    /// the final position `stopped_at`. The next line starts there. Without this call the move counts as complete and
     /// successful. #5061 .. #5070 return the result.
     void set_probe_result(bool hit, const Point& at, const Point& stopped_at);
     /// Continues from a position after other motion of the machine; the next line starts there without cutter

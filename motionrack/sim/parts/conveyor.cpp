@@ -29,7 +29,7 @@ bool within(double v, double min, double max) {
     return v >= min && v <= max;
 }
 
-/// The first time at which an object has moved `way` (>= 0) upwards; infinity if never.
+/// The first time at which an object has moved `distance` (>= 0) upwards; infinity if never.
 double time_for(double distance, double velocity, double accel) {
     constexpr double never_s = std::numeric_limits<double>::infinity();
     if (!(distance < never_s)) return never_s;

@@ -49,7 +49,7 @@ class Conveyor {
     void follow_profile(double t_s);
     /// Encoder counts (wrapping) at ticks of 10 us: first, first + 1, ..
     void counts(std::int64_t first_tick, std::span<std::int32_t> out) const;
-    /// A position after the part has carried it on by `way` mm or degrees.
+    /// A position after the part has carried it on by `distance` mm or degrees.
     sim::Spot carried(sim::Spot position, double distance) const;
     /// Position on the part at `field` mm, and the inverse. Part and field coincide at travel 0.
     sim::Spot on_part(sim::Spot field, double t_s) const;

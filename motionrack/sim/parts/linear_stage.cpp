@@ -198,7 +198,7 @@ Instant LinearStage::law_end() const {
     return state_.length == endless ? never : state_.since + Duration{state_.length};
 }
 
-/// Approximate ticks for a distance `way` (>= 0, in the direction of motion).
+/// Approximate ticks for a distance `distance` (>= 0, in the direction of motion).
 std::int64_t LinearStage::guess(Wide distance, std::int64_t last) const {
     const double d = static_cast<double>(distance), v = std::fabs(static_cast<double>(state_.velocity));
     const double a = static_cast<double>(state_.half_accel) * direction(), under = v * v + 4 * a * d;
