@@ -113,7 +113,7 @@ void drive_all(Watched& w, const std::string& program, const std::function<void(
     }
 }
 
-TEST_P(StreamExecutorTest, DrivesAProgramAsAJobDoes) {
+TEST_P(StreamExecutorTest, ExecutesAProgramAsAJobDoes) {
     const test::RandomProgram program = test::ProgramMaker(7, test::ProgramSize::big).make();
     Watched w(router(GetParam()));
     drive_all(w, program.text);

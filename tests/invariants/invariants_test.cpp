@@ -355,7 +355,7 @@ TEST(GoodHistory, MayDeclareAServoWhoseCounterStays) {
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 
-TEST(GoodHistory, MayEndARampWithPulsesThatComeLessOftenThanALook) {
+TEST(GoodHistory, MayEndARampWithPulsesThatComeLessOftenThanASample) {
     History h;
     h.begin();
     h.latch(true);

@@ -131,7 +131,7 @@ TEST(GcodeReader, SettingsGiveOffsetsAndReferencePoints) {
     EXPECT_EQ(moves[4].end, settings.g30);
 }
 
-TEST(GcodeReader, StartsInG0WhereTheSettingsSaySo) {
+TEST(GcodeReader, StartsInG0WhereTheSettingsRequireIt) {
     Settings settings = machine();
     settings.start_in_g0 = true;
     const auto moves = read("X5", settings).moves();

@@ -103,7 +103,7 @@ TEST(GcodePorts, ALineThatIsRefusedLeavesTheResultOfM66) {
     EXPECT_EQ(read.moves()[0].end[0], 3);
 }
 
-TEST(GcodeOverrides, CountForTheMovesThatAreNotWithoutThem) {
+TEST(GcodeOverrides, ApplyToMovesExceptThoseThatIgnoreThem) {
     EXPECT_THAT(reported("G1 X1\nM49\nX2\nG4 P1\nG0 X3\nM48\nX4\nM50 P0 X5\nM50\nX6\nM51 P0\nX7\nM53 P0 M8\nX8"),
                 ElementsAre("X1", "X2 as written", "wait 1", "X3 as written", "X4", "X5 as written", "X6", "X7", "X8"));
     EXPECT_THAT(reported("M49\nG1 X1\nM2\nG1 X2"), ElementsAre("X1 as written")) << "the end gives them back";

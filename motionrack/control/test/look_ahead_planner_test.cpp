@@ -138,7 +138,7 @@ TEST(LookAheadPlanner, ContinuousCornersObeyTheTolerance) {
     EXPECT_NEAR(out[0].exit_velocity, std::sqrt(1000 * std::sqrt(2.0) * 0.01 * s / (1 - s)), 1e-9);
 }
 
-TEST(LookAheadPlanner, GoingBackOnItselfStops) {
+TEST(LookAheadPlanner, StopsWhereThePathReverses) {
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 1;
     EXPECT_EQ(plan_path(path_machine(), {first, path_line_to(0, 0)})[0].exit_velocity, 0);

@@ -12,7 +12,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(Machine, DrivesAProgramToItsEnd) {
+TEST(Machine, ExecutesAProgramToItsEnd) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_TRUE(m.begin_program("%\nG21 G90 F1200\nG1 X30\nG2 X40 Y10 I10\nM2\nG1 X0\n", "p.ngc"));

@@ -37,7 +37,7 @@ class OneCard {
     Rack rack_;
 };
 
-TEST(Mcx314CardSettings, TheVariantDecidesWhichCommandsThereAre) {
+TEST(Mcx314CardSettings, TheVariantDecidesWhichCommandsExist) {
     OneCard original(""), as("variant = \"mcx314as\"\n");
     original.command(mcx314::cmd::EM, 0x0000'0010);
     as.command(mcx314::cmd::EM, 0x0000'0010);

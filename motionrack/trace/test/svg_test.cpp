@@ -21,7 +21,7 @@ ReportData corner() {
     return data;
 }
 
-TEST(SvgPath, FromAboveHasYUpAndDrawsTraversesApart) {
+TEST(SvgPath, FromAboveHasYUpAndDrawsRapidsApart) {
     SvgStyle style;
     style.width = style.height = 268;  // 100 mm on 200 px
     const std::string svg = svg_path(corner(), PathView::plan, style);

@@ -18,7 +18,7 @@ TEST(Ioflex02Calibration, ResZeroesAtOnce) {
     EXPECT_EQ(position(rig, 3), 13);
 }
 
-TEST(Ioflex02Calibration, ResNmZeroesAtTheFirstIndexAndOnlyThere) {
+TEST(Ioflex02Calibration, ResNmZeroesAtTheFirstIndexOnly) {
     Rig rig;
     rig.start();
     rig.turn(1, 50);

@@ -94,7 +94,7 @@ constexpr ArcFunction arcs[] = {{"CircleCW_C", CircleCW_C, true, false},
                                 {"CircleCW_T", CircleCW_T, true, true},
                                 {"CircleCCW_T", CircleCCW_T, false, true}};
 
-TEST(Mcx314libArcs, OfAnyTwoAxesGoTheirWayRound) {
+TEST(Mcx314libArcs, OfAnyTwoAxesFollowTheCircle) {
     const Open chip;
     set_up();
     for (const ArcFunction& arc : arcs) {
