@@ -11,7 +11,7 @@ namespace {
 /// Relative to a limit.
 constexpr double overlap_rounding = 1e-7;
 /// Relative to the duration of a segment.
-constexpr double relative_rounding = 1e-12;
+constexpr double time_rounding = 1e-12;
 /// Number of bisections for a time on a segment.
 constexpr int overlap_halvings = 14;
 /// Factor on the overlap, and number of attempts, if the sum exceeds an axis limit.
@@ -86,7 +86,7 @@ class RampCursor {
     PathMotion at(double seconds) const { return piece().at(std::min(time_ + seconds, piece().seconds)); }
     void pass(double seconds) {
         time_ += seconds;
-        if (left() <= relative_rounding * piece().seconds && piece_ + 1 < feed_.size()) time_ = 0, ++piece_;
+        if (left() <= time_rounding * piece().seconds && piece_ + 1 < feed_.size()) time_ = 0, ++piece_;
     }
 
   private:
