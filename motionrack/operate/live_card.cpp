@@ -141,7 +141,7 @@ std::optional<Error> LiveCard::doubt() const {
 }
 
 bool LiveCard::stands_after_stop(FunctionLibrary& library) {
-    for (int poll = 0; poll < max_live_looks; ++poll) {
+    for (int attempt = 0; attempt < max_live_looks; ++attempt) {
         library.stop_now();
         const bool moves = library.moving();
         if (lost_) return false;
