@@ -24,7 +24,7 @@ constexpr const char* by_its_wires =
 LiveCard::LiveCard(const LivePlace& place, rack::Rack& rack, const rack::CardKind& kind)
     : place_(place),
       kind_(kind),
-      select_(static_cast<std::uint8_t>(rack.config().card(place.card)->databoard4002.select)),
+      select_(static_cast<std::uint8_t>(rack.config().card(place.card)->databoard4002.card_number)),
       host_(rack.cards().front()->host()) {}
 
 Result<std::unique_ptr<LiveCard>> LiveCard::open(const LivePlace& place, rack::Rack& rack) {

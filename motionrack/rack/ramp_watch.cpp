@@ -14,7 +14,7 @@ RampWatch::RampWatch(Rack& rack)
         if (rack_.axes()[a].servo || rack_.config().positions_alone(axis)) continue;
         const double units = axis.pulses_per_unit();
         const JumpLaw law(axis.max_velocity_step * units, axis.max_accel * units, period);
-        if (law.looks > 0) watched_.push_back({a, law});
+        if (law.samples > 0) watched_.push_back({a, law});
     }
 }
 
@@ -47,11 +47,11 @@ void RampWatch::keep(std::size_t i, std::int64_t count) {
 
 void RampWatch::judge(std::size_t i, Instant now) {
     const std::array<std::int64_t, counts_kept>& counts = state_.counts[i];
-    const std::size_t looks = watched_[i].law.looks, last = counts_kept - 1;
+    const std::size_t samples = watched_[i].law.samples, last = counts_kept - 1;
     const JumpLaw& law = watched_[i].law;
     const double rate = std::fabs(rate_of(i, now)), before = std::exchange(state_.rates[i], rate);
     const bool ends_abruptly = rate == 0 && before > law.end_hz;
-    if (ends_abruptly || law.jump_hz(counts[last - 2 * looks], counts[last - looks], counts[last]) > 0)
+    if (ends_abruptly || law.jump_hz(counts[last - 2 * samples], counts[last - samples], counts[last]) > 0)
         state_.jumped[static_cast<std::size_t>(rack_.axes()[watched_[i].axis].config.index())] = now + Duration{1};
 }
 
@@ -71,7 +71,7 @@ void RampWatch::settle() {
     const Instant now = kernel_.now();
     for (std::size_t i = 0; i < watched_.size(); ++i) {
         const std::int64_t count = count_of(i, now);
-        for (std::size_t k = 0; k < 2 * watched_[i].law.looks; ++k) {
+        for (std::size_t k = 0; k < 2 * watched_[i].law.samples; ++k) {
             keep(i, count);
             judge(i, now);
         }

@@ -91,7 +91,7 @@ TEST(FramePacer, AddsNothingUp) {
         ASSERT_EQ(pacer.due(milliseconds(1) + i * period, begin + (i == 0 ? Duration{0} : i * period + Duration{3})),
                   begin + i * period);
     EXPECT_EQ(pacer.late(), 0u);
-    EXPECT_EQ(pacer.max_error(), Duration{3});
+    EXPECT_EQ(pacer.max_lateness(), Duration{3});
 }
 
 TEST(FramePacer, SlowsDownAndCatchesUp) {

@@ -29,12 +29,12 @@ Result<std::shared_ptr<OpenDataboard>> card_on(const std::shared_ptr<DataboardBu
     std::string known;
     for (const rack::RackCard& each : rack.config().cards) {
         if (each.type != "databoard4002") continue;
-        if (each.databoard4002.select == number) {
+        if (each.databoard4002.card_number == number) {
             rack::Card* const card = rack.card(each.name);
             sim::VirtualBytePort& port = *card->byte_port();
             return std::make_shared<OpenDataboard>(bus, card, port, port, select);
         }
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", each.databoard4002.select);
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", each.databoard4002.card_number);
     }
     return fail(
         ErrorKind::invalid_input,

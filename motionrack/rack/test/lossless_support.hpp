@@ -79,7 +79,7 @@ inline Driven drive_with(const RackConfig& config, const std::string& program, c
     (*plan)->begin();
     Driven out;
     out.outcome = job.run();
-    out.max_deviation = referee.verdict(accel_parts);
+    out.worst = referee.verdict(accel_parts);
     return out;
 }
 

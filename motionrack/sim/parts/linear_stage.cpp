@@ -211,7 +211,7 @@ std::int64_t LinearStage::guess(Wide distance, std::int64_t last) const {
 Instant LinearStage::reaches(std::int64_t there) const {
     const int way = direction();
     if (way == 0 || there > farthest_stage_counts || there < -farthest_stage_counts) return never;
-    const Wide edge = fine_position(distance > 0 ? there : there + 1);
+    const Wide edge = fine_position(way > 0 ? there : there + 1);
     const auto passed = [&](std::int64_t ticks) {
         return way > 0 ? place_after(ticks) >= edge : place_after(ticks) < edge;
     };

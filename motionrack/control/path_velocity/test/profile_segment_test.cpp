@@ -62,7 +62,7 @@ TEST(ProfileSegment, EndsWhenItFirstReachesAnEndOfTheSameVelocity) {
         const double half = std::pow(10.0, -9 + 10 * part(random)), bend = std::pow(10.0, -2 + 10 * part(random));
         const double to = 0.75 + 0.249 * part(random);
         const ProfileSegment cell =
-            feed_cell(0, 2 * half * to, 0.5 * bend * half * half * (1 - to * to), bend * half * to, -bend);
+            parabolic_segment(0, 2 * half * to, 0.5 * bend * half * half * (1 - to * to), bend * half * to, -bend);
         ASSERT_NEAR(cell.seconds, 2 * std::asin(to) / std::sqrt(0.5 * bend), 1e-6 * cell.seconds)
             << to << " of " << half << " bend " << bend;
         expect_motion_forward(cell);
@@ -76,7 +76,7 @@ TEST(ProfileSegment, EndsAtStandstillWhereTheVelocityAtTheEndIsRoundedToZero) {
     for (int i = 0; i < 2'000; ++i) {
         const double length = std::pow(10.0, -9 + 10 * part(random)), square = std::pow(10.0, -12 + 15 * part(random));
         const double slope = -square / length * (1 + 1e-16 * (i % 7));
-        const ProfileSegment cell = feed_cell(0, length, square, slope, 0);
+        const ProfileSegment cell = parabolic_segment(0, length, square, slope, 0);
         ASSERT_NEAR(cell.seconds, 2 * length / std::sqrt(square), 1e-6 * cell.seconds)
             << length << " from " << square << " slope " << slope;
     }
