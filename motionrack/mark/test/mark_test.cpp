@@ -125,7 +125,7 @@ TEST(MarkJob, WrongJobsAreRefusedWithTheirLocations) {
         return read.errors.empty() ? std::string() : read.errors[0].text();
     };
     EXPECT_THAT(first("[drawing]\n"), HasSubstr("j.toml:1:"));
-    EXPECT_THAT(first("[drawing]\ntext = 'A'\nsvg = 'b'\n"), HasSubstr("there are 2"));
+    EXPECT_THAT(first("[drawing]\ntext = 'A'\nsvg = 'b'\n"), HasSubstr("but has 2"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[pace]\nmark_speed_mm_s = nan\n"), HasSubstr("j.toml:4:"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[pace]\njump_delay_us = 55\n"), HasSubstr("steps of 10 us"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[bolt]\n"),

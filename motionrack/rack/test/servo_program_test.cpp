@@ -119,7 +119,7 @@ TEST(ServoRackFile, ReportsWhatIsWrong) {
     EXPECT_THAT(all_texts(read_rack_text(carriage("load_inertia_ratio = 9\n")).warnings),
                 HasSubstr("overshoot its target"));
     EXPECT_THAT(all_texts(read_rack_text(carriage("velocity_per_volt_mm_s = 40\n")).warnings),
-                HasSubstr("reaches at 10 V"));
+                HasSubstr("of its servo at 10 V"));
     EXPECT_TRUE(read_rack_text(*rack_template("carriage")).warnings.empty());
 }
 
