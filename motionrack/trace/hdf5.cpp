@@ -306,8 +306,11 @@ Result<Hdf5File> Hdf5File::open(const std::string& path) {
     Hdf5File out;
     out.path_ = path;
     const Handle access = access_settings();
-    out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
-    if (out.file_) return out;
+    // A disk may fail once, which says nothing about the recording; the mark of a writer stays.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
+        if (out.file_) return out;
+    }
     const std::string first = why();
     // While a writer is active, the library re-reads inconsistent metadata with doubling delays: 20 attempts take 1 ms.
     H5Pset_metadata_read_attempts(access.get(), 20);
