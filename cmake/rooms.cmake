@@ -159,8 +159,8 @@ list(TRANSFORM read_by_tests PREPEND ${PROJECT_SOURCE_DIR}/)
 # at once as NAME.1 .. NAME.N. Those with the label deep take long: ./test leaves them out, ./test --all has them.
 # FAULTS and DEEP are filters of GoogleTest: those that rows of the catalogue of faults name run as NAME.faults with the
 # label fault, those that take long as NAME.deep with the label deep. EVERY: tests that try some of many calls or
-# allocations that fail also run as NAME.PART.N with the labels deep and PART, where they try each call, or as many by
-# the seed as fit into the part. ALONE: each test is a process of its own, where a library has one state for the whole
+# allocations that fail also run as NAME.PART.N with the labels deep and PART, where they try as many by the seed as
+# fit into the part. ALONE: each test is a process of its own, where a library has one state for the whole
 # process. ALWAYS: its result depends on other programs or libraries of the build, or on sources. Without it only its
 # program and the tree's other files decide, so that tests/unchanged knows whether it has to run again. tests/programs
 # runs single tests by their names. COMPUTES: its own code takes long, so that it pays to optimise it; COMPUTES_MUCH: so
@@ -235,8 +235,8 @@ function(motionrack_test name)
       set(test ${name}.${part}.${shard})
       add_test(NAME ${test} COMMAND test_${name} --gtest_brief=1 "--gtest_filter=${filter}")
       of_program(${test} "deep;${part};${T_LABELS}")
-      set(environment GTEST_TOTAL_SHARDS=8 GTEST_SHARD_INDEX=${index} MOTIONRACK_CALLS=1000000000
-          MOTIONRACK_JOURNAL_CALLS=150 MOTIONRACK_SERVED_CALLS=40 MOTIONRACK_ALLOCATIONS=400)
+      set(environment GTEST_TOTAL_SHARDS=8 GTEST_SHARD_INDEX=${index} MOTIONRACK_CALLS=120
+          MOTIONRACK_JOURNAL_CALLS=150 MOTIONRACK_SERVED_CALLS=15 MOTIONRACK_ALLOCATIONS=250)
       set_tests_properties(${test} PROPERTIES TIMEOUT 3600 ENVIRONMENT "${environment}")
     endforeach()
   endwhile()
