@@ -236,7 +236,7 @@ function(motionrack_test name)
       add_test(NAME ${test} COMMAND test_${name} --gtest_brief=1 "--gtest_filter=${filter}")
       of_program(${test} "deep;${part};${T_LABELS}")
       set(environment GTEST_TOTAL_SHARDS=8 GTEST_SHARD_INDEX=${index} MOTIONRACK_CALLS=120
-          MOTIONRACK_JOURNAL_CALLS=150 MOTIONRACK_SERVED_CALLS=15 MOTIONRACK_ALLOCATIONS=2000)
+          MOTIONRACK_JOURNAL_CALLS=150 MOTIONRACK_SERVED_CALLS=15 MOTIONRACK_ALLOCATIONS=1200)
       set_tests_properties(${test} PROPERTIES TIMEOUT 3600 ENVIRONMENT "${environment}")
     endforeach()
   endwhile()
