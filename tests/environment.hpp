@@ -1,8 +1,10 @@
 // Numbers that a user passes to the tests: MOTIONRACK_SEED=7 test_mcx314.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <vector>
 
 namespace motionrack {
 
@@ -32,6 +34,17 @@ inline std::uint64_t cases(const char* name, std::uint64_t everyday) {
 /// Returns the first seed of random tests: MOTIONRACK_SEED, or the same number in every run.
 inline std::uint64_t seed_from_environment(std::uint64_t otherwise = 1) {
     return from_environment("MOTIONRACK_SEED", otherwise);
+}
+
+/// Returns `count` of the numbers 0 .. all - 1, or all of them: at equal distances, from MOTIONRACK_SEED on (without it
+/// from 0), so that many seeds try each number.
+inline std::vector<std::int64_t> spread_by_seed(std::int64_t all, std::uint64_t count) {
+    const std::int64_t chosen = std::min(all, static_cast<std::int64_t>(count));
+    const std::uint64_t seed = seed_from_environment(0);
+    std::vector<std::int64_t> out;
+    for (std::int64_t i = 0; i < chosen; ++i)
+        out.push_back((i * all / chosen + static_cast<std::int64_t>(seed % static_cast<std::uint64_t>(all))) % all);
+    return out;
 }
 
 }  // namespace motionrack

@@ -96,13 +96,10 @@ class FaultyDisk : public InFolder, public testing::WithParamInterface<Scenario>
     static std::string old_text(const std::string& result) {
         return std::string(GetParam().command).find("sweep") == 0 && result != "a.svg" ? "" : "old " + result;
     }
-    /// Some of the calls, at equal distances and by the seed, so that many runs try all; with a large MOTIONRACK_CALLS
-    /// all.
+    /// Some of the calls by the seed; with a large MOTIONRACK_CALLS all.
     static std::vector<std::int64_t> chosen(std::int64_t calls) {
-        const auto count = std::min(calls, static_cast<std::int64_t>(trials("MOTIONRACK_CALLS", 2, 12)));
-        const auto shift = static_cast<std::int64_t>(seed_from_environment(0) % static_cast<std::uint64_t>(calls));
-        std::vector<std::int64_t> out;
-        for (std::int64_t i = 0; i < count; ++i) out.push_back(calls - (i * calls / count + shift) % calls);
+        std::vector<std::int64_t> out = spread_by_seed(calls, trials("MOTIONRACK_CALLS", 2, 12));
+        for (std::int64_t& one : out) one = calls - one;
         return out;
     }
     void check(const Ran& ran, const std::map<std::string, std::string>& good) const {

@@ -63,15 +63,10 @@ class WithoutMemory : public InFolder, public testing::WithParamInterface<Task> 
         EXPECT_EQ(ran.code, 0) << ran.out;
         return std::atoll(text_of(folder / "count").c_str());
     }
-    /// Some of the allocations after the first ones, at equal distances and by the seed, so that many runs try all;
-    /// with a large MOTIONRACK_ALLOCATIONS all.
+    /// Some of the allocations after the first ones, by the seed; with a large MOTIONRACK_ALLOCATIONS all.
     static std::vector<std::int64_t> chosen(std::int64_t first, std::int64_t calls) {
-        const std::int64_t all = calls - first;
-        const auto count = std::min(all, static_cast<std::int64_t>(trials("MOTIONRACK_ALLOCATIONS", 6, 100)));
-        const std::int64_t shift =
-            static_cast<std::int64_t>(seed_from_environment(0) % static_cast<std::uint64_t>(all));
-        std::vector<std::int64_t> out;
-        for (std::int64_t i = 0; i < count; ++i) out.push_back(calls - (i * all / count + shift) % all);
+        std::vector<std::int64_t> out = spread_by_seed(calls - first, trials("MOTIONRACK_ALLOCATIONS", 6, 100));
+        for (std::int64_t& one : out) one = calls - one;
         return out;
     }
     void check(const Ran& ran, const Ran& good, const std::map<std::string, std::string>& results) const {

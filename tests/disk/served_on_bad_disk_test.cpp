@@ -184,11 +184,9 @@ TEST_F(ServedRackOnABadDisk, LosesNothingAcknowledgedAndHasNoWrongPositionAsVali
         ASSERT_EQ(good.code, 0);
         const std::int64_t count = calls();
         check_positions(good, false, before, x);
-        const auto tried = std::min(count, static_cast<std::int64_t>(trials("MOTIONRACK_SERVED_CALLS", 2, 12)));
-        const auto shift = static_cast<std::int64_t>(seed_from_environment(0) % static_cast<std::uint64_t>(count));
-        for (std::int64_t i = 0; i < tried; ++i)
+        for (const std::int64_t before_last : spread_by_seed(count, trials("MOTIONRACK_SERVED_CALLS", 2, 12)))
             for (const char* fault : {"fail", "tear", "drop"}) {
-                const std::int64_t nth = count - (i * count / tried + shift) % count;
+                const std::int64_t nth = count - before_last;
                 const std::string plan = fault + (" " + std::to_string(nth));
                 SCOPED_TRACE(plan + " of about " + std::to_string(count) + (first_run ? ", first run" : ""));
                 start_anew();

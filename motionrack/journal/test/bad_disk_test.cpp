@@ -134,11 +134,8 @@ class OnABadDisk : public JournalFile, public testing::WithParamInterface<Scenar
     }
     /// Every writing call, or a selection by the seed with the last.
     std::vector<std::int64_t> chosen(std::int64_t calls, std::uint64_t everyday) const {
-        const auto wanted = static_cast<std::int64_t>(trials("MOTIONRACK_JOURNAL_CALLS", everyday, 100));
-        const std::int64_t count = std::min(calls, wanted);
-        std::vector<std::int64_t> out;
-        const auto shift = static_cast<std::int64_t>((seed_from_environment() - 1) % static_cast<std::uint64_t>(calls));
-        for (std::int64_t i = 0; i < count; ++i) out.push_back(1 + (i * calls / count + shift) % calls);
+        std::vector<std::int64_t> out = spread_by_seed(calls, trials("MOTIONRACK_JOURNAL_CALLS", everyday, 100));
+        for (std::int64_t& one : out) ++one;
         if (!out.empty()) out.push_back(calls);
         return out;
     }
