@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 #include <motionrack/frontends/databoard4002lib/card_table.hpp>
+#include <string>
+#include <vector>
 
 namespace motionrack::databoard4002lib {
 
@@ -10,6 +12,10 @@ namespace {
 
 constexpr const char* variable = "MOTIONRACK_RACK";
 constexpr int max_number = 255;
+
+std::string listed(const std::vector<std::int64_t>& numbers) {
+    return numbers.empty() ? "none" : fmt::format("{}", fmt::join(numbers, ", "));
+}
 
 Result<std::shared_ptr<DataboardBus>> open_bus(std::string_view place) {
     auto bus = std::make_shared<DataboardBus>();
@@ -26,7 +32,7 @@ Result<std::shared_ptr<OpenDataboard>> card_on(const std::shared_ptr<DataboardBu
     const auto select = static_cast<std::uint8_t>(number);
     if (bus->port) return std::make_shared<OpenDataboard>(bus, nullptr, *bus->port, *bus->port, select);
     rack::Rack& rack = bus->session->rack();
-    std::string known;
+    std::vector<std::int64_t> known;
     for (const rack::RackCard& each : rack.config().cards) {
         if (each.type != "databoard4002") continue;
         if (each.databoard4002.card_number == number) {
@@ -34,13 +40,13 @@ Result<std::shared_ptr<OpenDataboard>> card_on(const std::shared_ptr<DataboardBu
             sim::VirtualBytePort& port = *card->byte_port();
             return std::make_shared<OpenDataboard>(bus, card, port, port, select);
         }
-        known += fmt::format("{}{}", known.empty() ? "" : ", ", each.databoard4002.card_number);
+        known.push_back(each.databoard4002.card_number);
     }
     return fail(
         ErrorKind::invalid_input,
         fmt::format("The rack has no databoard4002 with the number {}; the numbers of those it has: {}. Nothing "
                     "was opened.",
-                    number, known.empty() ? "none" : known));
+                    number, listed(known)));
 }
 
 }  // namespace
@@ -129,11 +135,11 @@ Result<int> DataboardTable::open(const char* place, int number) {
 
 Result<std::shared_ptr<OpenDataboard>> DataboardTable::find(int handle) const {
     if (const auto found = cards_.find(handle); found != cards_.end()) return found->second;
-    std::string known;
-    for (const auto& [each, card] : cards_) known += fmt::format("{}{}", known.empty() ? "" : ", ", each);
+    std::vector<std::int64_t> known;
+    for (const auto& [each, card] : cards_) known.push_back(each);
     return fail(ErrorKind::invalid_input,
                 fmt::format("Unknown card handle {}; the handles of the open cards are: {}. Nothing was done.", handle,
-                            known.empty() ? "none" : known));
+                            listed(known)));
 }
 
 void DataboardTable::close(int handle) {
