@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <motionrack/control/move.hpp>
 #include <motionrack/rack/breaches.hpp>
 #include <utility>
@@ -19,6 +20,8 @@ constexpr Duration max_period = milliseconds(2);
 constexpr double count_rounding = 3;
 // Factor on the velocity step limit for whole velocity units and whole pulses, and for arcs drawn as chords.
 constexpr double start_reserve = 1.6;
+// Along a curve of chords, the trapezoidal profile uses the acceleration limit of an axis twice: along and across.
+constexpr double accel_of_curves = 2;
 
 std::string position_text(const Breach& breach) {
     return fmt::format("{}at {:.6f} s and X {:.3f}, Y {:.3f}, Z {:.3f}",
@@ -84,6 +87,8 @@ JumpLaw::JumpLaw(double start_hz, double accel_hz, Duration period) {
         std::clamp(std::max(pulses_of_start / start_hz, balanced), min_window, to_seconds(max_window));
     samples = static_cast<std::size_t>(std::max(1.0, std::ceil(window / to_seconds(period))));
     seconds = static_cast<double>(samples) * to_seconds(period);
+    period_ = to_seconds(period);
+    accel_hz_ = accel_hz;
     explained_ = accel_hz * seconds * seconds;
     allowed_ = start_reserve * start_hz * seconds + explained_ + count_rounding;
 }
@@ -91,6 +96,17 @@ JumpLaw::JumpLaw(double start_hz, double accel_hz, Duration period) {
 double JumpLaw::jump_hz(std::int64_t first, std::int64_t middle, std::int64_t last) const {
     const auto change = std::fabs(static_cast<double>(last - 2 * middle + first));
     return change > allowed_ ? (change - count_rounding - explained_) / seconds : 0;
+}
+
+double JumpLaw::max_hz(std::span<const std::int64_t> counts) const {
+    double out = std::numeric_limits<double>::infinity();
+    const std::size_t last = counts.size() - 1;
+    for (std::size_t k = 1; k <= samples; ++k) {
+        const double time = static_cast<double>(k) * period_;
+        const double pulses = std::fabs(static_cast<double>(counts[last] - counts[last - k])) + 1;
+        out = std::min(out, pulses / time + accel_of_curves * accel_hz_ * time / 2);
+    }
+    return out;
 }
 
 JumpWatch::JumpWatch(double start_hz, double accel_hz, Duration period)

@@ -65,8 +65,13 @@ struct JumpLaw {
     /// Takes the counts at the start of the first window, at its end, and at the end of the second. Returns the
     /// pulses/s above what the acceleration limit explains, or 0 if the step is allowed.
     double jump_hz(std::int64_t first, std::int64_t middle, std::int64_t last) const;
+    /// Takes one count per period, oldest first, more than `samples`. Returns the highest rate in pulses/s that these
+    /// counts allow at the newest. The rate of a card is above it in a segment with one pulse of a shallow axis.
+    double max_hz(std::span<const std::int64_t> counts) const;
 
   private:
+    double period_ = 0;     ///< seconds
+    double accel_hz_ = 0;   ///< acceleration limit, pulses/s2
     double allowed_ = 0;    ///< pulses
     double explained_ = 0;  ///< pulses explained by the acceleration limit alone
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/ramp_watch.hpp>
+#include <span>
 #include <utility>
 
 namespace motionrack::rack {
@@ -50,7 +51,7 @@ void RampWatch::judge(std::size_t i, Instant now) {
     const std::size_t samples = watched_[i].law.samples, last = counts_kept - 1;
     const JumpLaw& law = watched_[i].law;
     const double rate = std::fabs(rate_of(i, now)), before = std::exchange(state_.rates[i], rate);
-    const bool ends_abruptly = rate == 0 && before > law.end_hz;
+    const bool ends_abruptly = rate == 0 && std::min(before, law.max_hz(std::span{counts}.first(last))) > law.end_hz;
     if (ends_abruptly || law.jump_hz(counts[last - 2 * samples], counts[last - samples], counts[last]) > 0)
         state_.jumped[static_cast<std::size_t>(rack_.axes()[watched_[i].axis].config.index())] = now + Duration{1};
 }

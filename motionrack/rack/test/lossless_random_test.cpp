@@ -33,5 +33,11 @@ TEST(LosslessAtRandom, AStopAtTheBeginOfAChordKeepsThePosition) {
     drive_one(864005568);
 }
 
+// A segment with one pulse of an axis gives it a high rate for a fraction of a millisecond, and the next has none of
+// it.
+TEST(LosslessAtRandom, AStopInAShallowChordKeepsThePosition) {
+    drive_one(445961594, Arcs::some);
+}
+
 }  // namespace
 }  // namespace motionrack::rack
