@@ -219,6 +219,9 @@ void Invariants::see_travel(const Sight& now) {
 // ---- stops
 
 void Invariants::see_stop(const Sight& now) {
+    // Within one slice, a reset may be carried out and another stop may follow it.
+    const bool stopped_again =
+        now.latched && last_.latched && now.stopped_at != last_.stopped_at && (!knows_orders_ || reset_);
     if (stop_due_ > 0 && --stop_due_ == 0 && !now.latched && !reset_)
         found(Rule::stop_is_taken, now.at,
               fmt::format("a stop was ordered in the state '{}', and no stop is in force",
@@ -240,7 +243,7 @@ void Invariants::see_stop(const Sight& now) {
     if (stop_now_ || (now.latched && !last_.latched && !reset_now_))
         reset_ = false;  // the reset did not know of this stop
     stop_now_ = reset_now_ = false;
-    if (now.latched == last_.latched) return;
+    if (now.latched == last_.latched && !stopped_again) return;
     latched_at_ = now.at;
     stands_by_ = never;
     stood_ = false;

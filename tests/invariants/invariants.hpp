@@ -53,6 +53,7 @@ struct Sight {
     std::int64_t sequence = 0;
     operate::MachineState state = operate::MachineState::standstill;
     bool latched = false;
+    Instant stopped_at{};    ///< of the stop in force
     bool abrupt = false;     ///< ends pulses without a ramp
     bool by_writes = false;  ///< register writes drive an axis at standstill of the machine
     int lasers_on = 0;

@@ -48,7 +48,7 @@ class History {
         to(MachineState::standstill);
         pass(0.1);
     }
-    void latch(bool on, bool abrupt = false) { now_.latched = on, now_.abrupt = abrupt; }
+    void latch(bool on, bool abrupt = false) { now_.latched = on, now_.abrupt = abrupt, now_.stopped_at = now_.at; }
     Sight& now() { return now_; }
     bool found(Rule rule) const {
         for (const Finding& one : invariants_.findings())
@@ -369,6 +369,21 @@ TEST(GoodHistory, MayEndARampWithPulsesThatComeLessOftenThanASample) {
     h.to(MachineState::error_stop);
     h.pass(0.3);
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
+}
+
+TEST(GoodHistory, MayStartABeltBetweenAResetAndTheNextStopOfOneSlice) {
+    for (const bool is_reset : {true, false}) {
+        History h;
+        stop_on_the_way(h);
+        if (is_reset) h.order(Invariants::Order::reset);
+        h.pass(0.002);
+        h.order(Invariants::Order::part);
+        h.now().belt_velocity = 3;
+        h.order(Invariants::Order::stop);
+        h.latch(true);
+        h.pass(0.1);
+        EXPECT_EQ(h.found(Rule::stop_slows), !is_reset);
+    }
 }
 
 TEST(GoodHistory, MayBeResetBeforeTheNextIntervalShowsThatPulsesEndedAtOnce) {

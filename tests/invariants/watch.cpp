@@ -52,6 +52,7 @@ Sight RackWatch::sight() {
     out.at = now;
     const rack::StopLatch& latch = rack_.stop_latch();
     out.latched = latch.latched();
+    out.stopped_at = latch.at();
     out.abrupt = latch.latched() && latch.tripped_by(rack::StopSource::emergency_stop);
     for (const sim::WireId laser : lasers_) out.lasers_on += rack_.kernel().level(laser) != 0;
     for (const rack::RunningConveyor& track : rack_.tracks())
