@@ -72,7 +72,9 @@ typedef struct mr_rack mr_rack;
 /* Opens a rack and starts it at time 0. The string is the path of a rack file or, if it contains a '=' or a line end,
  * the text of one. "card.c1 = \"mcx314\"" is a complete rack: one card, each channel with an ideal axis that follows
  * every pulse (X Y Z A at the channels x y z u of an mcx314: 1000 pulses and 1000 encoder counts per mm or degree), no
- * switches, all inputs inactive. On failure *out is NULL. MR_BAD_CALL, MR_BAD_INPUT, MR_IO, MR_INTERNAL. */
+ * switches, all inputs inactive. All cards are virtual: the address of a real one (port:PATH, memory:PATH, uio:PATH) is
+ * refused, with the library that opens it, or the reason why none does. On failure *out is NULL. MR_BAD_CALL,
+ * MR_BAD_INPUT, MR_IO, MR_INTERNAL. */
 MR_API int mr_rack_open(const char* toml_path_or_text, mr_rack** out);
 
 /* Ends a running recording, then closes and frees the rack. mr_last_error() reports a recording that could not be

@@ -139,7 +139,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"mcx314lib/windows", {"base", "sim", "mcx314lib", "mcx314/map", "mcx314/chip"}},
     {"databoard4002lib",
      {"base", "calls", "rack", "live", "databoard4002/map", "databoard4002/driver", "databoard4002/library"}},
-    {"rtc5sim", {"base", "calls", "rack", "rtc5/map", "rtc5/model"}},
+    {"rtc5sim", {"base", "calls", "rack", "live", "rtc5/map", "rtc5/model"}},
     {"python",
      {"base", "sim", "control", "trace", "rack", "operate", "live", "mcx314/driver", "mcx314/library",
       "databoard4002/map", "databoard4002/driver", "databoard4002/library", "ioflex02/driver", "grating_bus/model",

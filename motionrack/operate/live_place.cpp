@@ -31,14 +31,11 @@ Result<void> check_live_places(const rack::RackConfig& config, std::span<const L
                                                               "Nothing was opened. A real card replaces one of them.",
                                                               rack::in_quotes(name), known));
         }
-        const rack::CardKind* const kind = rack::find_card_kind(card->type);
-        if (kind->library == nullptr || kind->view == nullptr)
-            return fail(
-                ErrorKind::refused,
-                fmt::format("Card {} is of type {}: a real one cannot be driven. Nothing was opened. A real mcx314 or "
-                            "databoard4002 can.",
-                            name, card->type));
-        MOTIONRACK_CHECK(live::check_card(places[i].spec, kind->map()));
+        const Result<const rack::CardKind*> kind = rack::find_live_kind(card->type);
+        if (!kind)
+            return fail(ErrorKind::refused,
+                        fmt::format("Card {} is of type {}. {}", name, card->type, kind.error().message));
+        MOTIONRACK_CHECK(live::check_card(places[i].spec, (*kind)->map()));
         std::string letters;
         for (const rack::RackAxis& axis : config.axes)
             if (axis.card == name) letters += fmt::format("{}{}", letters.empty() ? "" : ", ", axis.letter);

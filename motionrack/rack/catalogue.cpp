@@ -273,13 +273,24 @@ std::unique_ptr<Card> make_mcx314(sim::Kernel& kernel, const RackCard& config, s
     return std::make_unique<Mcx314Card>(kernel, config, log);
 }
 
+// Nothing is written to a real card by a map that is not its maker's: that would set whatever is at these addresses.
+constexpr std::string_view no_ioflex02_port =
+    "An IOFLEX02 has no live port: its hardware manual is not at hand, so the registers of the virtual one are this "
+    "project's own, and no real one has them.";
+constexpr std::string_view no_grating_bus_port =
+    "A card of the grating bus has no live port: its source names no registers, so those of the virtual one are this "
+    "project's own, and no real one has them.";
+constexpr std::string_view no_rtc5_port =
+    "An RTC5 has no live port: a real one is driven through its maker's DLL, and no source names the registers behind "
+    "it.";
+
 constexpr CardKind kinds[] = {
     {"mcx314", &mcx314::card_map, &make_mcx314, &mcx314_view, &mcx314_library},
     {"databoard4002", &databoard4002::card_map, &make_databoard4002, &databoard4002_view, &databoard4002_library},
-    {"ioflex02", &ioflex02::card_map, &make_ioflex02},
-    {"grating_bus", &grating_bus::card_map, &make_grating_bus},
-    {"grating_decoder", &grating_bus::decoder_map, &make_grating_decoder},
-    {"rtc5", &rtc5::card_map, &make_rtc5},
+    {"ioflex02", &ioflex02::card_map, &make_ioflex02, nullptr, nullptr, no_ioflex02_port},
+    {"grating_bus", &grating_bus::card_map, &make_grating_bus, nullptr, nullptr, no_grating_bus_port},
+    {"grating_decoder", &grating_bus::decoder_map, &make_grating_decoder, nullptr, nullptr, no_grating_bus_port},
+    {"rtc5", &rtc5::card_map, &make_rtc5, nullptr, nullptr, no_rtc5_port},
 };
 
 }  // namespace
@@ -304,6 +315,18 @@ const CardKind* find_card_kind(std::string_view type) {
     for (const CardKind& kind : kinds)
         if (kind.type == type) return &kind;
     return nullptr;
+}
+
+Result<const CardKind*> find_live_kind(std::string_view type) {
+    const CardKind* const kind = find_card_kind(type);
+    if (kind != nullptr && kind->no_live_port.empty()) return kind;
+    std::string known;
+    for (const CardKind& each : kinds)
+        if (each.no_live_port.empty()) known += fmt::format("{}{}", known.empty() ? "" : ", ", each.type);
+    const std::string cause =
+        kind != nullptr ? std::string(kind->no_live_port) : fmt::format("Unknown card type {}.", in_quotes(type));
+    return fail(ErrorKind::invalid_input,
+                fmt::format("{} Nothing was opened. A real card is one of: {}.", cause, known));
 }
 
 }  // namespace motionrack::rack

@@ -164,6 +164,8 @@ struct CardKind {
     Result<RegisterView> (*view)(const CardBus& bus, bool clearing) = nullptr;
     /// Function library of a virtual or real card; nullptr: no library for manual calls.
     std::unique_ptr<FunctionLibrary> (*library)(const CardBus& bus) = nullptr;
+    /// Why a real card has no live port, a sentence; empty: it has one, with `view` and `library`.
+    std::string_view no_live_port = {};
 };
 
 /// Builds the error that lists the readable registers of the card's map, and `more`.
@@ -184,5 +186,7 @@ std::unique_ptr<Card> make_rtc5(sim::Kernel& kernel, const RackCard& config, sim
 std::span<const CardKind> card_kinds();
 /// Returns nullptr if the kind is unknown.
 const CardKind* find_card_kind(std::string_view type);
+/// Finds a kind whose real cards have a live port. Errors: invalid_input, with the reason and the kinds that have one.
+Result<const CardKind*> find_live_kind(std::string_view type);
 
 }  // namespace motionrack::rack

@@ -13,19 +13,8 @@ namespace {
 /// Maximum interval at which a wait checks for signals and stops.
 constexpr Duration listen_every = milliseconds(10);
 
-/// A kind of card whose registers are known as its maker has them.
 const rack::CardKind& kind_of(const std::string& type) {
-    const rack::CardKind* const kind = rack::find_card_kind(type);
-    if (kind != nullptr && kind->view != nullptr) return *kind;
-    std::string known;
-    for (const rack::CardKind& each : rack::card_kinds())
-        if (each.view != nullptr) known += fmt::format("{}{}", known.empty() ? "" : ", ", each.type);
-    raise({ErrorKind::invalid_input,
-           kind == nullptr
-               ? fmt::format("Unknown card type {}; a real card is one of: {}. Nothing was opened.", type, known)
-               : fmt::format("A real {} cannot be opened: its registers are not known as its maker has them, or it has "
-                             "no bus. Nothing was opened. Real cards can be: {}.",
-                             type, known)});
+    return *value_of(rack::find_live_kind(type));
 }
 
 std::unique_ptr<LiveDevice> device_at(const std::string& place, const rack::CardKind& kind, Interrupt& host,

@@ -174,14 +174,19 @@ class Opening(OnAFile):
         ):
             with self.assertRaisesRegex(kind, sentence):
                 LiveCard(place)
-        for other in ("ioflex02", "grating_bus", "rtc5"):
+        for other, name in (
+            ("ioflex02", "An IOFLEX02"),
+            ("grating_bus", "A card of the grating bus"),
+            ("grating_decoder", "A card of the grating bus"),
+            ("rtc5", "An RTC5"),
+        ):
             with self.assertRaisesRegex(
-                InvalidInput, f"A real {other} cannot be opened.*Real cards can be: mcx314, databoard4002"
+                InvalidInput, f"{name} has no live port: .*A real card is one of: mcx314, databoard4002"
             ):
                 LiveCard(self.place, other)
         with self.assertRaisesRegex(InvalidInput, "The card's number is 256; it must be 0 to 255"):
             LiveCard(self.place, "databoard4002", select=256)
-        with self.assertRaisesRegex(InvalidInput, "Unknown card type rtc6"):
+        with self.assertRaisesRegex(InvalidInput, "Unknown card type 'rtc6'"):
             LiveCard(self.place, "rtc6")
 
     def test_a_place_where_no_card_answers_is_refused(self) -> None:

@@ -1,5 +1,10 @@
 // motionrack/c.h over rack::Session.
+#include <fmt/format.h>
+
 #include <motionrack/frontends/c/calls.hpp>
+#include <motionrack/live/port_spec.hpp>
+#include <motionrack/rack/catalogue.hpp>
+#include <motionrack/rack/toml_reader.hpp>
 
 std::string& motionrack::c::last_error() {
     thread_local std::string sentence;
@@ -30,6 +35,19 @@ int read(mr_rack* rack, const char* card, std::uint32_t address, Word* value) {
                    [&] { return rack->session->read(card, bits_of<Word>, address); });
 }
 
+/// Errors: as Session::open; invalid_input for the address of a real card.
+Result<std::unique_ptr<Session>> open_session(std::string_view path_or_text) {
+    if (!motionrack::live::names_real_card(path_or_text)) return Session::open(path_or_text, Session::Programs::yes);
+    std::string reasons;
+    for (const motionrack::rack::CardKind& kind : motionrack::rack::card_kinds())
+        if (reasons.find(kind.no_live_port) == std::string::npos) reasons.append(" ").append(kind.no_live_port);
+    return motionrack::fail(
+        ErrorKind::invalid_input,
+        fmt::format("{} is the address of a real card, and the cards of a rack are virtual. Nothing was opened. A real "
+                    "mcx314 is opened by mcx314_open(), a real databoard4002 by databoard4002_open().{}",
+                    motionrack::rack::in_quotes(path_or_text), reasons));
+}
+
 template <class Word>
 int write(mr_rack* rack, const char* card, std::uint32_t address, Word value) {
     return guarded({{rack, no_rack}, {card, no_card}},
@@ -44,7 +62,7 @@ int mr_rack_open(const char* toml_path_or_text, mr_rack** out) {
     if (out != nullptr) *out = nullptr;
     bool wrong_text = false;
     const int code = guarded({{toml_path_or_text, no_text}, {out, no_location}}, [&]() -> Result<void> {
-        auto session = Session::open(toml_path_or_text, Session::Programs::yes);
+        auto session = open_session(toml_path_or_text);
         if (!session) {
             wrong_text = session.error().kind == ErrorKind::invalid_input;
             return tl::unexpected<Error>(std::move(session).error());

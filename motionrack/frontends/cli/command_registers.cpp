@@ -35,17 +35,14 @@ Result<rack::RegisterView> live_view(const live::PortSpec& spec, const rack::Car
 }
 
 int live_registers(const RegistersOptions& options) {
-    const rack::CardKind* const kind = rack::find_card_kind(options.card.empty() ? "mcx314" : options.card);
-    if (!kind || !kind->view) {
-        print_error(
-            fmt::format("The registers of a real '{}' cannot be read; those of an mcx314 and of a "
-                        "databoard4002 can. Nothing was opened.",
-                        options.card));
+    const auto kind = rack::find_live_kind(options.card.empty() ? "mcx314" : options.card);
+    if (!kind) {
+        print_error(kind.error().message);
         return exit_usage;
     }
     const auto spec = live::read_port_spec(options.live);
     if (!spec) return report(spec.error());
-    const auto view = live_view(*spec, *kind, options);
+    const auto view = live_view(*spec, **kind, options);
     if (!view) return report(view.error());
     print_registers(*view, options);
     return exit_done;

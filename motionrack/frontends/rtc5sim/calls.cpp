@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <limits>
 #include <motionrack/frontends/rtc5sim/calls.hpp>
+#include <motionrack/live/port_spec.hpp>
+#include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/rtc5_card.hpp>
 
 namespace motionrack::rtc5sim {
@@ -152,6 +154,7 @@ Result<void> CardTable::pass_rack(std::int64_t ticks) {
 }
 
 Result<void> CardTable::open_rack(std::string_view path_or_text) {
+    if (live::names_real_card(path_or_text)) MOTIONRACK_CHECK(rack::find_live_kind("rtc5"));
     MOTIONRACK_TRY(std::unique_ptr<rack::Session> opened, rack::Session::open(path_or_text));
     std::vector<std::unique_ptr<Card>> found;
     for (const rack::RackCard& each : opened->rack().config().cards)

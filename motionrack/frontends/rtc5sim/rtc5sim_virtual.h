@@ -21,8 +21,9 @@ RTC5_API void rtc5sim_on_error(rtc5sim_error_handler handler, void* user);
 
 /* Replaces the cards by the cards of type rtc5 of a rack file (its path or its text), in the order of the file from
  * card 1 on: on the rack's wires, in its time, with its belts, sensors and scan heads. A file with mistakes is refused,
- * with all of them in the sentence, and the cards are unchanged. rtc5sim_close closes them, as free_rtc5_dll does; the
- * next call creates cards by RTC5SIM_CARDS. Return 0, or -1. */
+ * with all of them in the sentence, and the cards are unchanged; so is the address of a real card, which has no live
+ * port. rtc5sim_close closes them, as free_rtc5_dll does; the next call creates cards by RTC5SIM_CARDS. Return 0, or
+ * -1. */
 RTC5_API int rtc5sim_open(const char* rack);
 RTC5_API int rtc5sim_close(void);
 

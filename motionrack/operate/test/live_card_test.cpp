@@ -28,6 +28,7 @@ using Arguments = std::map<std::string, std::int64_t, std::less<>>;
 
 const StopOrigin dora{"dora", "127.0.0.1", ""};
 const char* const beside = "[card.bench]\ntype = \"mcx314\"\n[card.glass]\ntype = \"ioflex02\"\n";
+const char* const scanner = "[card.scan]\ntype = \"rtc5\"\n";
 
 /// A link to the file that acts as the card.
 class CardFile {
@@ -336,14 +337,17 @@ TEST(RealCard, ThatCannotBeOpenedRefusesTheService) {
 }
 
 TEST(RealCard, StandsForACardThatMovesNoAxis) {
-    const auto refused = [](const std::vector<std::string>& places) {
+    const auto refused = [](const std::vector<std::string>& places, const char* more = beside) {
         MachineSettings settings;
         for (const std::string& place : places) settings.live.push_back(*read_live_place(place));
-        const auto made = Machine::make(two_axes(beside), std::move(settings));
+        const auto made = Machine::make(two_axes(more), std::move(settings));
         return made ? std::string() : made.error().message;
     };
     EXPECT_THAT(refused({"m=port:/dev/zero"}), HasSubstr("Card m moves X, Y of the machine"));
-    EXPECT_THAT(refused({"glass=port:/dev/zero"}), HasSubstr("Card glass is of type ioflex02"));
+    EXPECT_THAT(refused({"glass=port:/dev/zero"}),
+                HasSubstr("Card glass is of type ioflex02. An IOFLEX02 has no live port: "));
+    EXPECT_THAT(refused({"scan=port:/dev/zero"}, scanner),
+                HasSubstr("Card scan is of type rtc5. An RTC5 has no live port: "));
     EXPECT_THAT(refused({"none=port:/dev/zero"}), HasSubstr("the cards of this rack are: m, bench, glass"));
     EXPECT_THAT(refused({"bench=port:/dev/zero", "bench=port:/dev/null"}), HasSubstr("Card bench has two addresses"));
     EXPECT_EQ(refused({"bench=port:/dev/zero"}), "");

@@ -55,6 +55,19 @@ TEST(CApi, RackFilesWithMistakesGiveALineForEach) {
     EXPECT_EQ(mr_rack_open("", &rack), MR_BAD_INPUT);
 }
 
+TEST(CApi, TheAddressOfARealCardOpensNothingAndTheSentenceNamesWhatDoes) {
+    for (const char* place : {"port:/dev/port,offset=0x2300", "memory:/sys/card", "uio:/dev/uio0"}) {
+        mr_rack* rack = nullptr;
+        EXPECT_EQ(mr_rack_open(place, &rack), MR_BAD_INPUT);
+        EXPECT_EQ(rack, nullptr);
+        EXPECT_THAT(mr_last_error(), HasSubstr(std::string("'") + place + "' is the address of a real card"));
+        EXPECT_THAT(mr_last_error(), HasSubstr("mcx314_open(), a real databoard4002 by databoard4002_open()"));
+        EXPECT_THAT(mr_last_error(), HasSubstr("An IOFLEX02 has no live port: "));
+        EXPECT_THAT(mr_last_error(), HasSubstr("A card of the grating bus has no live port: "));
+        EXPECT_THAT(mr_last_error(), HasSubstr("An RTC5 has no live port: "));
+    }
+}
+
 TEST(CApi, AccessesThatTheBusDoesNotHaveAreRefused) {
     Open r;
     std::uint8_t byte = 1;

@@ -91,6 +91,8 @@ TEST(Rtc5simRack, WhatCannotBeOpenedLeavesTheCardsAsTheyAre) {
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("height"));
     EXPECT_EQ(rtc5sim_open("card.m = \"mcx314\""), -1);
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("no card of type rtc5"));
+    EXPECT_EQ(rtc5sim_open("memory:/sys/bus/pci/devices/0000:03:00.0/resource0"), -1);
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("rtc5sim_open: An RTC5 has no live port: "));
     EXPECT_EQ(rtc5sim_open(nullptr), -1);
     EXPECT_EQ(rtc5_count_cards(), 3u);
     double value = 0;
