@@ -45,7 +45,7 @@ TEST_P(PascalMode, ThePrintedExampleReportsEachOutcomeOfInit) {
     EXPECT_EQ(run(examples, "MOTIONRACK_IRC='" + file.string() + "' " + init).out, "Chyba inicializace desky: 1");
     std::filesystem::remove(file);
     EXPECT_EQ(run(examples, "MOTIONRACK_IRC='" + file.string() + "' " + init).out, "Chyba inicializace desky: 1");
-    for (const char* rack : {"racks/single.toml", "no_such.toml"})
+    for (const char* rack : {"racks/single.toml", "no_such.toml", "port:/dev/port,offset=0x2300"})
         EXPECT_EQ(run(examples, "MOTIONRACK_RACK=" + std::string(rack) + " " + init).out, "Chyba inicializace desky: 2")
             << rack << " has no such card";
 }
