@@ -24,18 +24,18 @@ bool is_analog_output(int code) {
 
 /// Runs after all other words of the line, so that remaining words belong to these codes.
 bool Interpreter::ports() {
-    const int code = block_.m[m_io];
+    const int code = block().m[m_io];
     if (code == wait_on_input) return read_input();
     const bool analog = is_analog_output(code);
     if (!claim_words(analog ? letter_bit('E') | letter_bit('Q') : letter_bit('P')) ||
         !port_number(analog ? 'E' : 'P', '\0'))
         return false;
-    if (analog && !block_.has('Q')) {
-        return fail_at(
-            block_.m_column[m_io], GrblStatus::word_missing,
+    if (analog && !block().has('Q')) {
+        return words_.fail_at(
+            block().m_column[m_io], GrblStatus::word_missing,
             fmt::format("Q word missing: M{} needs the value for its output; write e.g. M{} E0 Q2.5", code, code));
     }
-    port_value_ = analog ? block_['Q'] : code == 62 || code == 64 ? 1 : 0;
+    port_value_ = analog ? block()['Q'] : code == 62 || code == 64 ? 1 : 0;
     todo_ |= todo_port;
     return true;
 }
@@ -44,25 +44,27 @@ bool Interpreter::ports() {
 bool Interpreter::read_input() {
     if (!claim_words(letter_bit('P') | letter_bit('E') | letter_bit('L') | letter_bit('Q')) || !port_number('P', 'E'))
         return false;
-    if (block_.has('L') && !need_integer('L', at_once, low, "how to wait (0 not at all, 1 rise, 2 fall, 3 on, 4 off)"))
+    if (block().has('L') &&
+        !words_.need_integer('L', at_once, low, "how to wait (0 not at all, 1 rise, 2 fall, 3 on, 4 off)"))
         return false;
-    const Wait wait = block_.has('L') ? static_cast<Wait>(block_['L']) : at_once;
-    if (block_.has('E') && wait != at_once)
-        return fail_word(
+    const Wait wait = block().has('L') ? static_cast<Wait>(block()['L']) : at_once;
+    if (block().has('E') && wait != at_once)
+        return words_.fail_word(
             'L', GrblStatus::unsupported,
             fmt::format("{}: waiting for an analog input is not possible; write L0, or P and a digital input",
-                        word_text('L')));
-    if (wait != at_once && !(block_.has('Q') && block_['Q'] > 0)) {
+                        words_.word_text('L')));
+    if (wait != at_once && !(block().has('Q') && block()['Q'] > 0)) {
         constexpr const char* why =
             "M66 waits for at most Q seconds, which must be above 0; write e.g. M66 P0 L3 Q5, or L0 to read it without "
             "waiting";
-        return block_.has('Q')
-                   ? fail_word('Q', GrblStatus::bad_target, fmt::format("{}: {}", word_text('Q'), why))
-                   : fail_at(block_.m_column[m_io], GrblStatus::word_missing, fmt::format("Q word missing: {}", why));
+        return block().has('Q')
+                   ? words_.fail_word('Q', GrblStatus::bad_target, fmt::format("{}: {}", words_.word_text('Q'), why))
+                   : words_.fail_at(block().m_column[m_io], GrblStatus::word_missing,
+                                    fmt::format("Q word missing: {}", why));
     }
     const bool comes = wait == at_once || wait == low;
     port_value_ = comes ? 0 : -1;
-    wait_seconds_ = comes ? 0 : block_['Q'];
+    wait_seconds_ = comes ? 0 : block()['Q'];
     todo_ |= todo_port;
     if (!comes) todo_ |= todo_wait;
     return true;
@@ -70,39 +72,40 @@ bool Interpreter::read_input() {
 
 /// Requires exactly one of the two words, with the number of an input or output.
 bool Interpreter::port_number(char letter, char other) {
-    const int code = block_.m[m_io];
-    const bool second = other != '\0' && block_.has(other);
-    if (block_.has(letter) && second)
-        return fail_word(
-            other, GrblStatus::unsupported,
-            fmt::format("{}: M{} reads one input, digital (P) or analog (E); leave one out", word_text(other), code));
-    if (!block_.has(letter) && !second) {
-        return fail_at(block_.m_column[m_io], GrblStatus::word_missing,
-                       fmt::format("{} word missing: M{} needs the number of its {}; write e.g. M{} {}0{}", letter,
-                                   code, code == wait_on_input ? "input" : "output", code, letter,
-                                   is_analog_output(code) ? " Q2.5" : ""));
+    const int code = block().m[m_io];
+    const bool second = other != '\0' && block().has(other);
+    if (block().has(letter) && second)
+        return words_.fail_word(other, GrblStatus::unsupported,
+                                fmt::format("{}: M{} reads one input, digital (P) or analog (E); leave one out",
+                                            words_.word_text(other), code));
+    if (!block().has(letter) && !second) {
+        return words_.fail_at(block().m_column[m_io], GrblStatus::word_missing,
+                              fmt::format("{} word missing: M{} needs the number of its {}; write e.g. M{} {}0{}",
+                                          letter, code, code == wait_on_input ? "input" : "output", code, letter,
+                                          is_analog_output(code) ? " Q2.5" : ""));
     }
-    return need_integer(second ? other : letter, 0, max_ports - 1,
-                        code == wait_on_input ? "the number of an input" : "the number of an output");
+    return words_.need_integer(second ? other : letter, 0, max_ports - 1,
+                               code == wait_on_input ? "the number of an input" : "the number of an output");
 }
 
 /// Claims words for M62 .. M68 if no other code of the line uses them.
 bool Interpreter::claim_words(std::uint32_t words) {
-    const std::uint32_t taken = words & block_.words & used_;
-    used_ |= words;
+    const std::uint32_t taken = words & block().words & words_.used();
+    words_.use(words);
     if (taken == 0) return true;
     const char letter = static_cast<char>('A' + std::countr_zero(taken));
-    return fail_word(letter, GrblStatus::axis_conflict,
-                     fmt::format("{}: M{} and another word of this line both use the {} word; put them on two lines",
-                                 word_text(letter), block_.m[m_io], letter));
+    return words_.fail_word(
+        letter, GrblStatus::axis_conflict,
+        fmt::format("{}: M{} and another word of this line both use the {} word; put them on two lines",
+                    words_.word_text(letter), block().m[m_io], letter));
 }
 
 void Interpreter::fill_port() {
-    const int code = block_.m[m_io];
+    const int code = block().m[m_io];
     event_.kind = code == wait_on_input ? CanonCallKind::input : CanonCallKind::output;
-    event_.analog = block_.has('E') && (is_analog_output(code) || code == wait_on_input);
+    event_.analog = block().has('E') && (is_analog_output(code) || code == wait_on_input);
     event_.with_motion = code == 62 || code == 63 || code == 67;
-    event_.port = static_cast<std::int32_t>(block_[event_.analog ? 'E' : 'P']);
+    event_.port = static_cast<std::int32_t>(block()[event_.analog ? 'E' : 'P']);
     event_.value = port_value_;
 }
 

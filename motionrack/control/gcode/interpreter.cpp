@@ -40,15 +40,13 @@ Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
 Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Language language) {
     todo_ = 0;
     held_.begin_line();
-    line_ = number;
-    language_ = language;
+    words_.begin_line(number, language);
     moving_.kind = CanonCallKind::move;
     if (end_pending_) apply_end();
     const MachineParameters known(*this);
-    if (!scan_line(text, {settings_.block_delete, language, &known}, block_, problem_) || !evaluate()) {
+    if (!words_.scan(text, {settings_.block_delete, language, &known}) || !evaluate()) {
         todo_ = 0;
-        problem_.location.line = number;
-        return tl::unexpected<Problem>(problem_);
+        return words_.problem_of(number);
     }
     return {};
 }
@@ -56,34 +54,33 @@ Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Lang
 bool Interpreter::evaluate() {
     next_ = modes_;
     frame_edited_ = false;
-    axis_words_taken_ = false;
     cutter_plan_.clear();
     tool_edited_.reset();
     turning_.reset();
-    used_ = letter_bit('F') | letter_bit('N') | letter_bit('S') | letter_bit('T');
+    words_.begin_interpretation();
     end_ = position_;
     if (!check_values()) return false;
-    if (block_.has_m(m_program) && !program_words()) return false;
-    if ((block_.m_groups | (block_.words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words())
+    if (block().has_m(m_program) && !program_words()) return false;
+    if ((block().m_groups | (block().words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words())
         return false;
-    if ((block_.g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
+    if ((block().g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
     if (next_.cutter != CutterSide::off && !cutter_allows()) return false;
-    if (block_.has('F')) apply_feed();
-    if (block_.has_g(g_nonmodal) && !nonmodal()) return false;
+    if (block().has('F')) apply_feed();
+    if (block().has_g(g_nonmodal) && !nonmodal()) return false;
     if (!motion()) return false;
-    if (block_.has_m(m_io) && !ports()) return false;
+    if (block().has_m(m_io) && !ports()) return false;
     if (ends_program() && next_.cutter != CutterSide::off && !end_cutter()) return false;
     if (held_.full() && !may_wait()) return false;
-    if ((block_.words & ~used_) != 0) return unused();
-    if (!block_.comments.empty()) {
+    if (!words_.need_all_used(next_.motion)) return false;
+    if (!block().comments.empty()) {
         todo_ |= todo_comments;
         comments_pulled_ = 0;
     }
-    if (!block_.assignments.empty() && !assign()) return false;
-    if (!block_.comments.empty()) show_values();
+    if (!block().assignments.empty() && !assign()) return false;
+    if (!block().comments.empty()) show_values();
     if (tool_edited_) tools_.put(*tool_edited_);
-    if (block_.has_m(m_state)) save_modes();
-    if (block_.has_m(m_io) && block_.m[m_io] == 66) parameters_.set(input_parameter, port_value_);
+    if (block().has_m(m_state)) save_modes();
+    if (block().has_m(m_io) && block().m[m_io] == 66) parameters_.set(input_parameter, port_value_);
     commit();
     return true;
 }
@@ -91,15 +88,15 @@ bool Interpreter::evaluate() {
 /// Executes all assignments, or none if a name does not fit.
 bool Interpreter::assign() {
     std::size_t global = 0, local = 0;
-    for (const auto& [parameter, value] : block_.assignments) {
+    for (const auto& [parameter, value] : block().assignments) {
         if (parameter.number > 0 || parameters_.named(parameter.name)) continue;
         if (++(is_global(parameter.name) ? global : local) > parameters_.capacity_for(parameter.name)) {
-            return fail_at(
-                block_.text.find('#'), GrblStatus::unsupported,
+            return words_.fail_at(
+                block().text.find('#'), GrblStatus::unsupported,
                 fmt::format("#<{}> is one named parameter too many; there may be {}", parameter.name, max_names));
         }
     }
-    for (const auto& [parameter, value] : block_.assignments) {
+    for (const auto& [parameter, value] : block().assignments) {
         if (parameter.number > 0)
             parameters_.set(parameter.number, value);
         else
@@ -111,70 +108,72 @@ bool Interpreter::assign() {
 bool Interpreter::check_values() {
     constexpr std::uint32_t not_negative = letter_bit('F') | letter_bit('N') | letter_bit('P') | letter_bit('S') |
                                            letter_bit('T') | letter_bit('L') | letter_bit('Q');
-    for (std::uint32_t left = block_.words & not_negative; left != 0; left &= left - 1) {
+    for (std::uint32_t left = block().words & not_negative; left != 0; left &= left - 1) {
         const int index = std::countr_zero(left);
-        if (block_.value[index] >= 0) continue;
+        if (block().value[index] >= 0) continue;
         const char letter = static_cast<char>('A' + index);
         if ((letter == 'P' || letter == 'Q') && negative_handles()) continue;
-        if (letter == 'Q' && block_.has_m(m_io) && block_.m[m_io] >= 67) continue;  // a value
-        return fail_word(letter, GrblStatus::negative_value,
-                         fmt::format("{} is negative; {} must be 0 or more", word_text(letter), letter));
+        if (letter == 'Q' && block().has_m(m_io) && block().m[m_io] >= 67) continue;  // a value
+        return words_.fail_word(letter, GrblStatus::negative_value,
+                                fmt::format("{} is negative; {} must be 0 or more", words_.word_text(letter), letter));
     }
-    if (const std::uint32_t absent = block_.words & axis_words & ~present_words_; absent != 0) {
+    if (const std::uint32_t absent = block().words & axis_words & ~present_words_; absent != 0) {
         const char letter = static_cast<char>('A' + std::countr_zero(absent));
         std::string present;
         for (const char axis : axis_letters) {
             if ((present_words_ & letter_bit(axis)) != 0)
                 present += present.empty() ? std::string(1, axis) : fmt::format(" {}", axis);
         }
-        return fail_word(
+        return words_.fail_word(
             letter, GrblStatus::unsupported,
             fmt::format("{}: this machine has no {} axis (it has {}); take the word out or set the axis up",
-                        word_text(letter), letter, present.empty() ? "none" : present));
+                        words_.word_text(letter), letter, present.empty() ? "none" : present));
     }
-    if (block_.has('N') && (block_['N'] > largest_line_number || block_['N'] != std::floor(block_['N']))) {
-        return fail_word('N', GrblStatus::bad_line_number,
-                         fmt::format("{}: line numbers are integers from N0 to N9999999", word_text('N')));
+    if (block().has('N') && (block()['N'] > largest_line_number || block()['N'] != std::floor(block()['N']))) {
+        return words_.fail_word(
+            'N', GrblStatus::bad_line_number,
+            fmt::format("{}: line numbers are integers from N0 to N9999999", words_.word_text('N')));
     }
-    if (block_.has('T')) {
-        if (!need_integer('T', 0, 1e9, "a tool number")) return false;
-        if (block_['T'] > largest_tool)
-            return fail_word('T', GrblStatus::value_too_large,
-                             fmt::format("{}: tools are T0 to T99999", word_text('T')));
-        if (!require_tool('T', static_cast<std::int32_t>(block_['T']))) return false;
+    if (block().has('T')) {
+        if (!words_.need_integer('T', 0, 1e9, "a tool number")) return false;
+        if (block()['T'] > largest_tool)
+            return words_.fail_word('T', GrblStatus::value_too_large,
+                                    fmt::format("{}: tools are T0 to T99999", words_.word_text('T')));
+        if (!require_tool('T', static_cast<std::int32_t>(block()['T']))) return false;
     }
     return true;
 }
 
 bool Interpreter::apply_modes() {
-    if (block_.has_g(g_units)) next_.inch = block_.g[g_units] == 200;
-    if (block_.has_g(g_feed_mode)) {
-        const bool inverse = block_.g[g_feed_mode] == 930;
+    if (block().has_g(g_units)) next_.inch = block().g[g_units] == 200;
+    if (block().has_g(g_feed_mode)) {
+        const bool inverse = block().g[g_feed_mode] == 930;
         if (inverse != next_.inverse_time) next_.feed = next_.feed_rotary = 0;
         next_.inverse_time = inverse;
     }
-    if (block_.has_g(g_plane)) next_.plane = static_cast<std::uint8_t>((block_.g[g_plane] - 170) / 10);
-    if (block_.has_g(g_distance)) next_.incremental = block_.g[g_distance] == 910;
-    if (block_.has_g(g_arc_distance)) next_.arc_absolute = block_.g[g_arc_distance] == 901;
-    if (block_.has_g(g_retract)) next_.retract_to_r = block_.g[g_retract] == 990;
-    if (block_.has_g(g_cutter) && !cutter()) return false;
-    if (block_.has_g(g_tool_length) && !tool_length()) return false;
-    if (block_.has_g(g_system)) {
-        const int code = block_.g[g_system];
+    if (block().has_g(g_plane)) next_.plane = static_cast<std::uint8_t>((block().g[g_plane] - 170) / 10);
+    if (block().has_g(g_distance)) next_.incremental = block().g[g_distance] == 910;
+    if (block().has_g(g_arc_distance)) next_.arc_absolute = block().g[g_arc_distance] == 901;
+    if (block().has_g(g_retract)) next_.retract_to_r = block().g[g_retract] == 990;
+    if (block().has_g(g_cutter) && !cutter()) return false;
+    if (block().has_g(g_tool_length) && !tool_length()) return false;
+    if (block().has_g(g_system)) {
+        const int code = block().g[g_system];
         next_.system = static_cast<std::uint8_t>(code > 590 ? code - 585 : (code - 540) / 10);
         edit_frame().activate(next_.system);
     }
-    if (block_.has_g(g_path)) {
-        const int code = block_.g[g_path];
+    if (block().has_g(g_path)) {
+        const int code = block().g[g_path];
         next_.path = code == 610   ? PathControl::exact_path
                      : code == 611 ? PathControl::exact_stop
                                    : PathControl::continuous;
         if (code == 640) {
             next_.tolerance_mm = settings_.path_tolerance_mm;
-            const bool others = block_.has_g(g_nonmodal) && (block_.g[g_nonmodal] == 40 || block_.g[g_nonmodal] == 100);
-            if (block_.has('P') && !others) {
+            const bool others =
+                block().has_g(g_nonmodal) && (block().g[g_nonmodal] == 40 || block().g[g_nonmodal] == 100);
+            if (block().has('P') && !others) {
                 next_.tolerance_mm = scaled('P');
-                used_ |= letter_bit('P');
+                words_.use(letter_bit('P'));
             }
         }
     }
@@ -183,10 +182,10 @@ bool Interpreter::apply_modes() {
 
 void Interpreter::apply_feed() {
     if (next_.inverse_time) {
-        next_.feed = block_['F'] / 60;
+        next_.feed = block()['F'] / 60;
     } else {
         next_.feed = scaled('F') / 60;
-        next_.feed_rotary = block_['F'] / 60;
+        next_.feed_rotary = block()['F'] / 60;
     }
 }
 
@@ -216,7 +215,7 @@ const CanonCall* Interpreter::pull_next() {
     if (what == todo_comments) return pull_comment();
     todo_ &= ~what;
     event_ = CanonCall{};
-    event_.line = line_;
+    event_.line = words_.number();
     event_.speed_rpm = modes_.speed_rpm;
     event_.tool = modes_.tool_selected;
     event_.mist = modes_.mist;
@@ -230,7 +229,7 @@ const CanonCall* Interpreter::pull_next() {
             event_.kind = CanonCallKind::tool_select;
             break;
         case todo_tool_change:
-            event_.kind = block_.m[m_tool] == 61 ? CanonCallKind::tool_number : CanonCallKind::tool_change;
+            event_.kind = block().m[m_tool] == 61 ? CanonCallKind::tool_number : CanonCallKind::tool_change;
             event_.tool = modes_.tool_loaded;
             break;
         case todo_coolant:
@@ -268,7 +267,7 @@ void Interpreter::fill_dwell(double seconds) {
     move.kind = MoveKind::dwell;
     move.path = modes_.path;
     move.tolerance_mm = modes_.tolerance_mm;
-    move.line = line_;
+    move.line = words_.number();
     move.seconds = seconds;
     move.end = dwell_at_;
 }
@@ -295,11 +294,11 @@ const CanonCall* Interpreter::pull_motion() {
 }
 
 const CanonCall* Interpreter::pull_comment() {
-    const Comment& comment = block_.comments[comments_pulled_++];
-    if (comments_pulled_ == block_.comments.size()) todo_ &= ~static_cast<std::uint32_t>(todo_comments);
+    const Comment& comment = block().comments[comments_pulled_++];
+    if (comments_pulled_ == block().comments.size()) todo_ &= ~static_cast<std::uint32_t>(todo_comments);
     event_ = CanonCall{};
     event_.kind = comment.message ? CanonCallKind::message : CanonCallKind::comment;
-    event_.line = line_;
+    event_.line = words_.number();
     event_.text = comment.text;
     if (comment.values) event_.text = shown_[comments_pulled_ - 1];
     return &event_;
@@ -313,88 +312,6 @@ WorkFrame& Interpreter::edit_frame() {
 
 Point Interpreter::program_position() const {
     return frame_.to_program(position());
-}
-
-bool Interpreter::fail_at(std::size_t column, GrblStatus status, std::string message, ErrorKind trouble) {
-    set_problem(problem_, block_.text, column, status, std::move(message), trouble);
-    return false;
-}
-
-bool Interpreter::fail_word(char letter, GrblStatus status, std::string message) {
-    return fail_at(block_.column[letter_index(letter)], status, std::move(message));
-}
-
-std::string_view Interpreter::word_text(char letter) const {
-    return word_at(block_.text, block_.column[letter_index(letter)]);
-}
-
-bool Interpreter::need_integer(char letter, double low, double high, const char* use) {
-    const double value = block_[letter];
-    if (value != std::floor(value)) {
-        return fail_word(
-            letter, GrblStatus::not_an_integer,
-            fmt::format("{}: {} is {}, an integer; write e.g. {}{}", word_text(letter), letter, use, letter, low));
-    }
-    if (value < low || value > high) {
-        return fail_word(letter, GrblStatus::value_too_large,
-                         fmt::format("{}: {} is {}, from {} to {}", word_text(letter), letter, use, low, high));
-    }
-    return true;
-}
-
-std::size_t Interpreter::error_column() const {
-    if (block_.has_g(g_motion)) return block_.g_column[g_motion];
-    std::size_t first = block_.text.size();
-    for (std::uint32_t left = block_.words & (axis_words | offset_words); left != 0; left &= left - 1) {
-        first = std::min<std::size_t>(first, block_.column[std::countr_zero(left)]);
-    }
-    return first;
-}
-
-/// Detects X1e3: the E would be a separate word.
-bool Interpreter::unused_exponent() {
-    const std::string_view text = block_.text;
-    const std::size_t column = block_.column[letter_index('E')];
-    if (column == 0 || !(is_digit(text[column - 1]) || text[column - 1] == '.')) return false;
-    std::size_t begin = column;
-    while (begin > 0 && !is_letter(text[begin - 1])) --begin;
-    if (begin > 0) --begin;
-    return !fail_at(begin, GrblStatus::bad_number,
-                    fmt::format("{}{}: numbers of G-code have no exponent; write 1000, not 1e3",
-                                text.substr(begin, column - begin), word_text('E')));
-}
-
-bool Interpreter::unused() {
-    const int index = std::countr_zero(block_.words & ~used_);
-    const char letter = static_cast<char>('A' + index);
-    const std::int16_t code = next_.motion;
-    const char* use = "";
-    if (letter == 'I' || letter == 'J' || letter == 'K') {
-        use = code == 20 || code == 30
-                  ? "; the offsets of an arc are I J in G17, I K in G18, J K in G19, and none beside R"
-                  : "; it is the centre of an arc (G2, G3)";
-    } else if (letter == 'R') {
-        use = "; it is the radius of an arc (G2, G3) or the retract height of a drilling cycle (G73, G81 .. G89)";
-    } else if (letter == 'P') {
-        use =
-            "; use it with G4, G10, G64, M50 .. M53, M62 .. M66 and the cycles that wait, and with arcs that have an "
-            "end or offsets on the same line";
-    } else if (letter == 'L') {
-        use = "; use it with G10, M66 and the drilling cycles (G73, G81 .. G89)";
-    } else if (letter == 'E') {
-        if (unused_exponent()) return false;
-        use = "; use it with M66, M67 and M68 (an analog input or output); the machine has no extruder";
-    } else if (letter == 'D') {
-        use = "; use it with G41, G42 (a tool's number), G41.1 and G42.1 (a diameter)";
-    } else if (letter == 'H') {
-        use = "; use it with G43 and G43.2 (a tool's number)";
-    } else if (letter == 'Q') {
-        use =
-            "; it is the peck depth of G73 and G83, a control point of G5, the longest wait of M66, and the value of "
-            "M67 and M68";
-    }
-    return fail_word(letter, GrblStatus::unused_word,
-                     fmt::format("{}: nothing on this line uses the {} word{}", word_text(letter), letter, use));
 }
 
 }  // namespace motionrack::control::gcode

@@ -36,6 +36,7 @@
 #include <motionrack/control/gcode/drill_cycle.hpp>
 #include <motionrack/control/gcode/language/parameters.hpp>
 #include <motionrack/control/gcode/lathe_cycle.hpp>
+#include <motionrack/control/gcode/line_words.hpp>
 #include <motionrack/control/gcode/settings.hpp>
 #include <motionrack/control/gcode/work_frame.hpp>
 
@@ -126,8 +127,8 @@ class Interpreter {
     /// Returns the machine coordinates after the last line; with cutter compensation, the cutter centre if it stops
     /// here.
     const Point& position() const { return off_path_ ? at_ : position_; }
-    Point program_position() const;                     ///< in the active work system, mm and degrees
-    std::int32_t line_number() const { return line_; }  ///< number of the last line
+    Point program_position() const;                               ///< in the active work system, mm and degrees
+    std::int32_t line_number() const { return words_.number(); }  ///< number of the last line
     /// Stores the result of the probing move of the last line (CanonCall::probe): the edge `at`, valid if `hit`, and
     /// the final position `stopped_at`. The next line starts there. Without this call the move counts as complete and
     /// successful. #5061 .. #5070 return the result.
@@ -142,7 +143,7 @@ class Interpreter {
     }
     const ModalState& modes() const { return modes_; }
     const WorkFrame& frame() const { return frame_; }
-    const Block& block() const { return block_; }  ///< words of the last line
+    const Block& block() const { return words_.block(); }  ///< words of the last line
     const Parameters& parameters() const { return parameters_; }
     Parameters& parameters() { return parameters_; }
     const ToolTable& tools() const { return tools_; }
@@ -276,27 +277,20 @@ class Interpreter {
     }
     bool exceeds_travel(int axis, double value, std::size_t column);
     bool no_feed();
-    bool unused();
-    bool unused_exponent();
     const CanonCall* pull_next();
     const CanonCall* pull_motion();
     const CanonCall* pull_comment();
     void show_values();
     std::string substitute_values(std::string_view text) const;
 
-    bool fail_at(std::size_t column, GrblStatus status, std::string message,
-                 ErrorKind trouble = ErrorKind::invalid_input);
-    bool fail_word(char letter, GrblStatus status, std::string message);
-    bool need_integer(char letter, double low, double high, const char* use);
-    std::size_t error_column() const;  ///< column of the motion word, or of the first axis or offset word
-    std::string_view word_text(char letter) const;
     double scale_of(int axis) const { return axis < 3 && next_.inch ? 25.4 : 1.0; }
-    double scaled(char letter) const { return next_.inch ? block_[letter] * 25.4 : block_[letter]; }
+    double scaled(char letter) const { return next_.inch ? block()[letter] * 25.4 : block()[letter]; }
     WorkFrame& edit_frame();
     const WorkFrame& frame_now() const { return frame_edited_ ? next_frame_ : frame_; }
     static std::size_t axis_letter(int axis) { return static_cast<std::size_t>(letter_index(axis_letters[axis])); }
 
     Settings settings_;
+    LineWords words_;
     Point low_ = {};
     Point high_ = {};
     std::uint32_t present_words_ = 0;
@@ -318,10 +312,6 @@ class Interpreter {
     WorkFrame next_frame_;
     bool frame_edited_ = false;
     Point end_ = {};
-    std::uint32_t used_ = 0;
-    bool axis_words_taken_ = false;
-
-    Language language_ = Language::words;
     std::optional<Tool> tool_edited_;  ///< by G10 L1, L10, L11
 
     // Cutter compensation: the waiting move, and the effect of the current line on it.
@@ -334,10 +324,6 @@ class Interpreter {
     PlanePoint cutter_from_;
     std::int32_t cutter_line_ = 0;
     CompensationPlan cutter_plan_;
-
-    Block block_;
-    Problem problem_;
-    std::int32_t line_ = 0;
 
     // Remaining calls.
     std::uint32_t todo_ = 0;

@@ -26,18 +26,18 @@ bool is_probing(std::int16_t code) {
 }  // namespace
 
 bool Interpreter::motion() {
-    const bool is_explicit = block_.has_g(g_motion);
-    std::int16_t code = is_explicit ? block_.g[g_motion] : modes_.motion;
+    const bool is_explicit = block().has_g(g_motion);
+    std::int16_t code = is_explicit ? block().g[g_motion] : modes_.motion;
     if (code == 800) code = no_motion;
     next_.motion = code;
     if (is_explicit && is_turning(code)) return turning(code);
-    const bool own_axis_words = !axis_words_taken_ && (block_.words & axis_words) != 0;
-    const bool own_offsets = (is_arc(code) || is_spline(code)) && (block_.words & offset_words) != 0;
-    const bool wants_motion = own_axis_words || (own_offsets && !axis_words_taken_);
-    if (!wants_motion && !is_explicit && !block_.has_g(g_nonmodal)) return true;
+    const bool own_axis_words = !words_.axis_words_taken() && (block().words & axis_words) != 0;
+    const bool own_offsets = (is_arc(code) || is_spline(code)) && (block().words & offset_words) != 0;
+    const bool wants_motion = own_axis_words || (own_offsets && !words_.axis_words_taken());
+    if (!wants_motion && !is_explicit && !block().has_g(g_nonmodal)) return true;
     if (!motion_needs(code, wants_motion)) return false;
     if (!wants_motion) return true;
-    used_ |= axis_words;
+    words_.use(axis_words);
     if (is_arc(code)) return arc(code);
     if (is_cycle(code)) return cycle(code);
     if (is_spline(code)) return spline(code);
@@ -46,41 +46,44 @@ bool Interpreter::motion() {
 
 /// Checks the combination of axis words and motion word.
 bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
-    const bool is_explicit = block_.has_g(g_motion);
-    if (axis_words_taken_ && is_explicit && code != no_motion) {
-        const GroupG other = block_.has_g(g_tool_length) && block_.g[g_tool_length] != 490 ? g_tool_length : g_nonmodal;
-        return fail_at(block_.g_column[g_motion], GrblStatus::axis_conflict,
-                       fmt::format("{} and {} on one line both use axis words; put them on two lines", name_of_g(code),
-                                   name_of_g(block_.g[other])));
+    const bool is_explicit = block().has_g(g_motion);
+    if (words_.axis_words_taken() && is_explicit && code != no_motion) {
+        const GroupG other =
+            block().has_g(g_tool_length) && block().g[g_tool_length] != 490 ? g_tool_length : g_nonmodal;
+        return words_.fail_at(block().g_column[g_motion], GrblStatus::axis_conflict,
+                              fmt::format("{} and {} on one line both use axis words; put them on two lines",
+                                          name_of_g(code), name_of_g(block().g[other])));
     }
-    if (block_.has_g(g_nonmodal) && block_.g[g_nonmodal] == 530) {
-        const std::size_t column = block_.g_column[g_nonmodal];
+    if (block().has_g(g_nonmodal) && block().g[g_nonmodal] == 530) {
+        const std::size_t column = block().g_column[g_nonmodal];
         if (code != 0 && code != 10) {
-            return fail_at(
+            return words_.fail_at(
                 column, GrblStatus::g53_without_line,
                 fmt::format("G53 (machine coordinates) needs G0 or G1, and {} is active; write e.g. G53 G0 Z0",
                             code == no_motion ? "no motion" : name_of_g(code)));
         }
         if (!wants_motion) {
-            return fail_at(column, GrblStatus::no_axis_words,
-                           "axis words missing: G53 needs a target; write e.g. G53 G0 Z0");
+            return words_.fail_at(column, GrblStatus::no_axis_words,
+                                  "axis words missing: G53 needs a target; write e.g. G53 G0 Z0");
         }
     }
     if (code == no_motion && wants_motion) {
-        const char letter = static_cast<char>('A' + std::countr_zero(block_.words & axis_words));
-        return fail_word(letter, GrblStatus::axis_words_unused,
-                         fmt::format("{}: no motion is active {}; write G0 (rapid) or G1 (feed) before it",
-                                     word_text(letter), is_explicit ? "after G80" : "here"));
+        const char letter = static_cast<char>('A' + std::countr_zero(block().words & axis_words));
+        return words_.fail_word(letter, GrblStatus::axis_words_unused,
+                                fmt::format("{}: no motion is active {}; write G0 (rapid) or G1 (feed) before it",
+                                            words_.word_text(letter), is_explicit ? "after G80" : "here"));
     }
-    if (is_explicit && !wants_motion && !axis_words_taken_ && is_spline(code)) return spline_allowed(code);
-    if (is_explicit && !wants_motion && !axis_words_taken_ && (is_arc(code) || is_cycle(code) || is_probing(code))) {
-        return fail_at(block_.g_column[g_motion], GrblStatus::no_axis_words,
-                       is_probing(code) ? fmt::format("{} needs a target to probe towards; write e.g. {} Z-10 F60",
-                                                      name_of_g(code), name_of_g(code))
-                       : is_arc(code)   ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0",
-                                                      name_of_g(code), name_of_g(code))
-                                        : fmt::format("{} needs a position and a depth; write e.g. {} X10 Y10 Z-5 R2",
-                                                      name_of_g(code), name_of_g(code)));
+    if (is_explicit && !wants_motion && !words_.axis_words_taken() && is_spline(code)) return spline_allowed(code);
+    if (is_explicit && !wants_motion && !words_.axis_words_taken() &&
+        (is_arc(code) || is_cycle(code) || is_probing(code))) {
+        return words_.fail_at(
+            block().g_column[g_motion], GrblStatus::no_axis_words,
+            is_probing(code) ? fmt::format("{} needs a target to probe towards; write e.g. {} Z-10 F60",
+                                           name_of_g(code), name_of_g(code))
+            : is_arc(code)   ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0", name_of_g(code),
+                                           name_of_g(code))
+                             : fmt::format("{} needs a position and a depth; write e.g. {} X10 Y10 Z-5 R2",
+                                           name_of_g(code), name_of_g(code)));
     }
     return true;
 }
@@ -93,12 +96,12 @@ bool Interpreter::targets(bool machine_coordinates) {
     const int third = next_.plane == 0 ? 2 : next_.plane == 1 ? 1 : 0;
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::size_t index = axis_letter(axis);
-        if ((block_.words >> index & 1) == 0) continue;
-        const double value = block_.value[index] * scale_of(axis);
+        if ((block().words >> index & 1) == 0) continue;
+        const double value = block().value[index] * scale_of(axis);
         const double target = machine_coordinates ? value
                               : next_.incremental ? position_[axis] + value
                                                   : value + offset[axis];
-        if (!(offset_contour && axis < 3 && axis != third) && !reach(axis, target, block_.column[index])) return false;
+        if (!(offset_contour && axis < 3 && axis != third) && !reach(axis, target, block().column[index])) return false;
         end_[axis] = target;
     }
     return offset_contour || !off_path_ || reaches_contour();
@@ -111,17 +114,17 @@ bool Interpreter::targets_turned() {
     const std::uint32_t turning = letter_bit('X') | letter_bit('Y');
     Point program = next_.incremental ? Point{} : frame.to_program(position_);
     for (int axis = 0; axis < axis_count; ++axis)
-        if ((block_.words & letter_bit(axis_letters[axis])) != 0)
-            program[axis] = block_.value[axis_letter(axis)] * scale_of(axis);
+        if ((block().words & letter_bit(axis_letters[axis])) != 0)
+            program[axis] = block().value[axis_letter(axis)] * scale_of(axis);
     const Point by = frame.rotate(program), to = frame.to_machine(program);
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::uint32_t own = letter_bit(axis_letters[axis]);
-        if ((block_.words & (axis < 2 ? turning : own)) == 0) continue;
+        if ((block().words & (axis < 2 ? turning : own)) == 0) continue;
         const double target = next_.incremental ? position_[axis] + by[axis] : to[axis];
-        const int blamed = (block_.words & own) != 0 ? axis : 1 - axis;
+        const int blamed = (block().words & own) != 0 ? axis : 1 - axis;
         const bool absent = (present_words_ & own) == 0 && target == position_[axis];
         const bool in_plane = offset_contour && axis < 2;
-        if (!absent && !in_plane && !reach(axis, target, block_.column[axis_letter(blamed)])) return false;
+        if (!absent && !in_plane && !reach(axis, target, block().column[axis_letter(blamed)])) return false;
         end_[axis] = target;
     }
     // A rounding error must not become a move: in cutter compensation it would have a direction.
@@ -135,19 +138,19 @@ bool Interpreter::targets_turned() {
 
 bool Interpreter::straight(std::int16_t code) {
     if (is_probing(code) && !may_probe(code)) return false;
-    if (!targets(block_.has_g(g_nonmodal) && block_.g[g_nonmodal] == 530)) return false;
+    if (!targets(block().has_g(g_nonmodal) && block().g[g_nonmodal] == 530)) return false;
     Move& move = moving_.move;
     move.kind = code == 0 ? MoveKind::rapid : MoveKind::feed;
     move.path = next_.path;
     move.tolerance_mm = next_.tolerance_mm;
-    move.line = line_;
+    move.line = words_.number();
     move.end = end_;
     move.feed = 0;
     move.feed_mode = FeedMode::units_per_second;
     if (code != 0 && (!by_itself(code) || !feed_of(move))) return false;
     moving_.probe = Probe::none;
     if (is_probing(code) && !probing(code)) return false;
-    moving_.line = line_;
+    moving_.line = words_.number();
     motion_ = Motion::single;
     todo_ |= todo_motion;
     return !compensates() || compensate();
@@ -160,8 +163,8 @@ bool Interpreter::by_itself(std::int16_t code) {
     for (int axis = 0; axis < axis_count; ++axis)
         if (end_[axis] != position_[axis]) moving += (moving.empty() ? "" : ", ") + std::string(1, axis_letters[axis]);
     if (moving.size() <= 1 && !is_arc(code)) return true;
-    return fail_at(
-        error_column(), GrblStatus::unsupported,
+    return words_.fail_at(
+        words_.error_column(), GrblStatus::unsupported,
         is_arc(code)
             ? fmt::format("{} is an arc, but the axes of this rack position one by one; write straight moves",
                           name_of_g(code))
@@ -173,29 +176,29 @@ bool Interpreter::by_itself(std::int16_t code) {
 
 /// Starts a move of the current line with the active modes, to the targets of the words.
 Move& Interpreter::begin_move(MoveKind kind) {
-    moving_.line = line_;
+    moving_.line = words_.number();
     moving_.probe = Probe::none;
     Move& move = moving_.move;
     move = Move{};
     move.kind = kind;
     move.path = next_.path;
     move.tolerance_mm = next_.tolerance_mm;
-    move.line = line_;
+    move.line = words_.number();
     move.end = end_;
     return move;
 }
 
 bool Interpreter::feed_of(Move& move) {
     if (next_.inverse_time) {
-        if (!block_.has('F') || next_.feed == 0) return no_feed();
+        if (!block().has('F') || next_.feed == 0) return no_feed();
         move.feed_mode = FeedMode::inverse_time;
         move.feed = next_.feed;
         return true;
     }
     if (next_.feed == 0) return no_feed();
     const bool rotary_only = !(off_path_ && next_.cutter == CutterSide::off) && end_[0] == position_[0] &&
-                             end_[1] == position_[1] && end_[2] == position_[2] && (block_.words & rotary_words) != 0 &&
-                             move.kind == MoveKind::feed;
+                             end_[1] == position_[1] && end_[2] == position_[2] &&
+                             (block().words & rotary_words) != 0 && move.kind == MoveKind::feed;
     move.feed_mode = FeedMode::units_per_second;
     move.feed = rotary_only ? next_.feed_rotary : next_.feed;
     return true;
@@ -203,19 +206,21 @@ bool Interpreter::feed_of(Move& move) {
 
 bool Interpreter::no_feed() {
     const std::string code = name_of_g(next_.motion);
-    if (block_.has('F')) {
-        return fail_word('F', GrblStatus::no_feed,
-                         fmt::format("{}: {} cannot move at feed 0; write e.g. F600", word_text('F'), code));
+    if (block().has('F')) {
+        return words_.fail_word(
+            'F', GrblStatus::no_feed,
+            fmt::format("{}: {} cannot move at feed 0; write e.g. F600", words_.word_text('F'), code));
     }
     if (next_.inverse_time) {
-        return fail_at(
-            error_column(), GrblStatus::no_feed,
+        return words_.fail_at(
+            words_.error_column(), GrblStatus::no_feed,
             fmt::format("F word missing: in G93 every {} line needs its own; write e.g. F2 (the move takes 1/2 minute)",
                         code));
     }
-    return fail_at(error_column(), GrblStatus::no_feed,
-                   fmt::format("F word missing: {} needs a feed; write e.g. F600 ({}/min) on this line or before it",
-                               code, next_.inch ? "inch" : "mm"));
+    return words_.fail_at(
+        words_.error_column(), GrblStatus::no_feed,
+        fmt::format("F word missing: {} needs a feed; write e.g. F600 ({}/min) on this line or before it", code,
+                    next_.inch ? "inch" : "mm"));
 }
 
 bool Interpreter::exceeds_travel(int axis, double value, std::size_t column) {
@@ -223,11 +228,11 @@ bool Interpreter::exceeds_travel(int axis, double value, std::size_t column) {
     const char* unit = axis < 3 ? "mm" : "degrees";
     const double offset = frame_now().offset[axis];
     const std::string shift = offset == 0 ? std::string() : fmt::format(" (the work offset is {:.6g})", offset);
-    return fail_at(
+    return words_.fail_at(
         column, GrblStatus::travel_exceeded,
         fmt::format("{} leads to {} = {:.6g} {} in machine coordinates{}, but the axis goes from {:.6g} to {:.6g}; "
                     "the line was not executed; move the work or change its offset",
-                    word_at(block_.text, column), axis_letters[axis], value, unit, shift, limits.min_position,
+                    word_at(block().text, column), axis_letters[axis], value, unit, shift, limits.min_position,
                     limits.max_position),
         ErrorKind::refused);
 }

@@ -33,10 +33,10 @@ bool Interpreter::arc(std::int16_t code) {
     const auto& axes = plane_axes[next_.plane];
     const bool counter_clockwise = code == 30;
     double turns = 1;
-    if (block_.has('P') && (used_ & letter_bit('P')) == 0) {
-        if (!need_integer('P', 1, max_turns, "the number of turns of an arc")) return false;
-        turns = block_['P'];
-        used_ |= letter_bit('P');
+    if (block().has('P') && (words_.used() & letter_bit('P')) == 0) {
+        if (!words_.need_integer('P', 1, max_turns, "the number of turns of an arc")) return false;
+        turns = block()['P'];
+        words_.use(letter_bit('P'));
     }
     PlanePoint centre;
     if (!arc_centre(counter_clockwise, centre)) return false;
@@ -57,10 +57,11 @@ bool Interpreter::arc(std::int16_t code) {
 /// In a rotated work system an arc of G18 or G19 would not lie in a plane of two axes; a cycle would drill on a slant.
 bool Interpreter::in_turned_plane(std::int16_t code) {
     if (!frame_now().is_rotated || next_.plane == 0) return true;
-    return fail_at(error_column(), GrblStatus::unsupported,
-                   fmt::format("{} in {}: the work system is turned by {:.6g} degrees (G10 L2 R), where arcs and "
-                               "cycles are possible in G17 only",
-                               name_of_g(code), plane_names[next_.plane], frame_now().rotation_deg[next_.system]));
+    return words_.fail_at(
+        words_.error_column(), GrblStatus::unsupported,
+        fmt::format("{} in {}: the work system is turned by {:.6g} degrees (G10 L2 R), where arcs and "
+                    "cycles are possible in G17 only",
+                    name_of_g(code), plane_names[next_.plane], frame_now().rotation_deg[next_.system]));
 }
 
 /// Computes the centre from R or from I J K.
@@ -70,7 +71,7 @@ bool Interpreter::arc_centre(bool counter_clockwise, PlanePoint& centre) {
     const PlanePoint end = {end_[axes[0]], end_[axes[1]]};
     const bool closed =
         std::fabs(end.first - start.first) <= same_point_mm && std::fabs(end.second - start.second) <= same_point_mm;
-    if (block_.has('R')) return arc_centre_of_radius(start, end, closed, counter_clockwise, centre);
+    if (block().has('R')) return arc_centre_of_radius(start, end, closed, counter_clockwise, centre);
     if (!arc_centre_of_offsets(start, centre)) return false;
     if (closed) {
         end_[axes[0]] = start.first;
@@ -82,51 +83,52 @@ bool Interpreter::arc_centre(bool counter_clockwise, PlanePoint& centre) {
 bool Interpreter::arc_centre_of_radius(PlanePoint start, PlanePoint end, bool closed, bool counter_clockwise,
                                        PlanePoint& centre) {
     const auto& axes = plane_axes[next_.plane];
-    used_ |= letter_bit('R');
+    words_.use(letter_bit('R'));
     const std::uint32_t plane_words = letter_bit(axis_letters[axes[0]]) | letter_bit(axis_letters[axes[1]]);
-    if ((block_.words & plane_words) == 0) {
-        return fail_at(error_column(), GrblStatus::no_plane_axis,
-                       fmt::format("an arc with R needs an end in its plane, {} ({} or {})", plane_names[next_.plane],
-                                   axis_letters[std::min(axes[0], axes[1])], axis_letters[std::max(axes[0], axes[1])]));
+    if ((block().words & plane_words) == 0) {
+        return words_.fail_at(
+            words_.error_column(), GrblStatus::no_plane_axis,
+            fmt::format("an arc with R needs an end in its plane, {} ({} or {})", plane_names[next_.plane],
+                        axis_letters[std::min(axes[0], axes[1])], axis_letters[std::max(axes[0], axes[1])]));
     }
-    if (block_['R'] == 0)
-        return fail_word('R', GrblStatus::bad_target, "R0: an arc cannot have radius 0; use G1 for a line");
+    if (block()['R'] == 0)
+        return words_.fail_word('R', GrblStatus::bad_target, "R0: an arc cannot have radius 0; use G1 for a line");
     if (closed) {
-        return fail_word(
+        return words_.fail_word(
             'R', GrblStatus::bad_target,
             fmt::format("{}: an arc with R cannot end where it starts; write a full turn with offsets, e.g. {} I10",
-                        word_text('R'), name_of_g(next_.motion)));
+                        words_.word_text('R'), name_of_g(next_.motion)));
     }
     const double radius = scaled('R');
     if (centre_from_radius(start, end, radius, counter_clockwise, centre)) return true;
     const double chord = length({end.first - start.first, end.second - start.second});
-    return fail_word(
+    return words_.fail_word(
         'R', GrblStatus::bad_radius,
         fmt::format("{}: the radius is {:.6g} mm but the end is {:.6g} mm away; it must be at least {:.6g} mm",
-                    word_text('R'), std::fabs(radius), chord, chord / 2));
+                    words_.word_text('R'), std::fabs(radius), chord, chord / 2));
 }
 
 bool Interpreter::arc_centre_of_offsets(PlanePoint start, PlanePoint& centre) {
     const auto& axes = plane_axes[next_.plane];
     const std::array<char, 2> letters = {offset_letters[axes[0]], offset_letters[axes[1]]};
-    if (!block_.has(letters[0]) && !block_.has(letters[1])) {
-        return fail_at(
-            error_column(), GrblStatus::no_offsets,
+    if (!block().has(letters[0]) && !block().has(letters[1])) {
+        return words_.fail_at(
+            words_.error_column(), GrblStatus::no_offsets,
             fmt::format("{} needs the centre ({} {} in {}) or the radius (R)", name_of_g(next_.motion),
                         std::min(letters[0], letters[1]), std::max(letters[0], letters[1]), plane_names[next_.plane]));
     }
     Point words = {};
     std::array<double, 2> middle = {start.first, start.second};
     for (int i = 0; i < 2; ++i) {
-        used_ |= letter_bit(letters[i]);
-        if (block_.has(letters[i])) {
+        words_.use(letter_bit(letters[i]));
+        if (block().has(letters[i])) {
             words[axes[i]] = scaled(letters[i]);
             middle[i] = scaled(letters[i]) + (next_.arc_absolute ? frame_now().offset[axes[i]] : middle[i]);
         } else if (next_.arc_absolute) {
-            return fail_at(error_column(), GrblStatus::no_offsets,
-                           fmt::format("{} word missing: in G90.1 (absolute centres) {} needs both {} and {}",
-                                       letters[i], name_of_g(next_.motion), std::min(letters[0], letters[1]),
-                                       std::max(letters[0], letters[1])));
+            return words_.fail_at(words_.error_column(), GrblStatus::no_offsets,
+                                  fmt::format("{} word missing: in G90.1 (absolute centres) {} needs both {} and {}",
+                                              letters[i], name_of_g(next_.motion), std::min(letters[0], letters[1]),
+                                              std::max(letters[0], letters[1])));
         }
     }
     centre = {middle[0], middle[1]};
@@ -139,23 +141,23 @@ bool Interpreter::arc_centre_of_offsets(PlanePoint start, PlanePoint& centre) {
 
 bool Interpreter::arc_radii_agree(PlanePoint start, PlanePoint end, PlanePoint centre) {
     const auto& axes = plane_axes[next_.plane];
-    const char letter = block_.has(offset_letters[axes[0]]) ? offset_letters[axes[0]] : offset_letters[axes[1]];
+    const char letter = block().has(offset_letters[axes[0]]) ? offset_letters[axes[0]] : offset_letters[axes[1]];
     const double radius = length({start.first - centre.first, start.second - centre.second});
     const double end_radius = length({end.first - centre.first, end.second - centre.second});
     if (radius == 0 || end_radius == 0) {
-        return fail_word(letter, GrblStatus::bad_target,
-                         fmt::format("{}: the radius of this arc is 0; its {} lies on the centre", word_text(letter),
-                                     radius == 0 ? "start" : "end"));
+        return words_.fail_word(letter, GrblStatus::bad_target,
+                                fmt::format("{}: the radius of this arc is 0; its {} lies on the centre",
+                                            words_.word_text(letter), radius == 0 ? "start" : "end"));
     }
     const double difference = std::fabs(radius - end_radius);
     const double allowed =
         std::min(radius_difference_relative * std::max(radius, end_radius), max_radius_difference_mm);
     if (difference <= radius_difference_mm || difference <= allowed) return true;
-    return fail_word(
+    return words_.fail_word(
         letter, GrblStatus::bad_target,
         fmt::format("{}: the arc starts {:.6g} mm from its centre but ends {:.6g} mm from it; they may differ by "
                     "0.005 mm or 0.1 %; correct the centre or the end",
-                    word_text(letter), radius, end_radius));
+                    words_.word_text(letter), radius, end_radius));
 }
 
 bool Interpreter::arc_within_limits(PlanePoint start, PlanePoint end, PlanePoint centre, std::int32_t turns) {
@@ -172,8 +174,8 @@ bool Interpreter::arc_within_limits(PlanePoint start, PlanePoint end, PlanePoint
     const bool full = std::abs(turns) > 1 || (from.first == to.first && from.second == to.second);
     const auto passed = full ? std::array<bool, 4>{true, true, true, true} : extremes_passed(from, to, turns > 0);
     for (int i = 0; i < 4; ++i) {
-        if (passed[i] && !reach(axis[i], extremes[i], error_column())) {
-            problem_.message = "this arc exceeds the travel: " + problem_.message;
+        if (passed[i] && !reach(axis[i], extremes[i], words_.error_column())) {
+            words_.prefix_problem("this arc exceeds the travel: ");
             return false;
         }
     }

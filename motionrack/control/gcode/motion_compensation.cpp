@@ -16,22 +16,22 @@ constexpr double largest_cutter_mm = 1000;
 
 /// G40 .. G42.1.
 bool Interpreter::cutter() {
-    const std::int16_t code = block_.g[g_cutter];
-    const std::size_t column = block_.g_column[g_cutter];
+    const std::int16_t code = block().g[g_cutter];
+    const std::size_t column = block().g_column[g_cutter];
     if (code == 400) {
         if (compensating_ && !end_waiting_path()) return false;
         next_.cutter = CutterSide::off;
         return true;
     }
     if (next_.cutter != CutterSide::off) {
-        return fail_at(
+        return words_.fail_at(
             column, GrblStatus::unsupported,
             fmt::format("{}: cutter compensation is on already ({} of the contour); write G40 and a straight "
                         "move before it",
                         name_of_g(code), next_.cutter == CutterSide::left ? "left" : "right"));
     }
     if (settings_.point_to_point) {
-        return fail_at(
+        return words_.fail_at(
             column, GrblStatus::unsupported,
             fmt::format("{}: the axes of this rack position one by one, so cutter compensation is not possible",
                         name_of_g(code)));
@@ -46,29 +46,29 @@ bool Interpreter::cutter() {
 
 /// Reads the D word in mm; a negative diameter swaps the side.
 bool Interpreter::cutter_diameter(double& diameter) {
-    const std::int16_t code = block_.g[g_cutter];
-    const std::size_t column = block_.g_column[g_cutter];
-    used_ |= letter_bit('D');
+    const std::int16_t code = block().g[g_cutter];
+    const std::size_t column = block().g_column[g_cutter];
+    words_.use(letter_bit('D'));
     if (code % 10 != 0) {
-        if (!block_.has('D')) {
-            return fail_at(
+        if (!block().has('D')) {
+            return words_.fail_at(
                 column, GrblStatus::word_missing,
                 fmt::format("D word missing: {0} needs the cutter's diameter; write e.g. {0} D6", name_of_g(code)));
         }
         diameter = scaled('D');
     } else {
         if (tools_.empty()) {
-            return fail_at(
+            return words_.fail_at(
                 column, GrblStatus::unsupported,
                 fmt::format("{0}: the program has no tool table to take the diameter from; give the program one "
                             "(--tools FILE, tools= in Python), or write it out, e.g. {0}.1 D6",
                             name_of_g(code)));
         }
-        if (block_.has('D') && !need_integer('D', 0, largest_tool, "the number of a tool")) return false;
-        const bool of_spindle = !block_.has('D') || block_['D'] == 0;
-        const std::int32_t number = of_spindle ? next_.tool_loaded : static_cast<std::int32_t>(block_['D']);
+        if (block().has('D') && !words_.need_integer('D', 0, largest_tool, "the number of a tool")) return false;
+        const bool of_spindle = !block().has('D') || block()['D'] == 0;
+        const std::int32_t number = of_spindle ? next_.tool_loaded : static_cast<std::int32_t>(block()['D']);
         if (number <= 0) {
-            return fail_at(
+            return words_.fail_at(
                 column, GrblStatus::word_missing,
                 fmt::format("{0}: no tool is in the spindle; write e.g. {0} D1, or T1 M6 before it", name_of_g(code)));
         }
@@ -77,46 +77,47 @@ bool Interpreter::cutter_diameter(double& diameter) {
         diameter = tool->diameter_mm;
     }
     if (std::fabs(diameter) <= largest_cutter_mm) return true;
-    return fail_at(
-        block_.has('D') ? block_.column[letter_index('D')] : column, GrblStatus::value_too_large,
+    return words_.fail_at(
+        block().has('D') ? block().column[letter_index('D')] : column, GrblStatus::value_too_large,
         fmt::format("a cutter of {:.6g} mm: the largest diameter is {:.6g} mm", diameter, largest_cutter_mm));
 }
 
 /// Checks for changes that compensation does not allow.
 bool Interpreter::cutter_allows() {
     const auto forbid = [&](std::size_t column, std::string_view what) {
-        return fail_at(
+        return words_.fail_at(
             column, GrblStatus::axis_conflict,
             fmt::format("{} while cutter compensation is on; write G40 and a straight move before it", what));
     };
     const bool was_on = modes_.cutter != CutterSide::off;
     // M72 restores modes, too.
     const auto column_of = [&](GroupG group) -> std::size_t {
-        return block_.has_g(group)      ? block_.g_column[group]
-               : block_.has_m(m_state)  ? block_.m_column[m_state]
-               : block_.has_g(g_cutter) ? block_.g_column[g_cutter]
-                                        : 0;
+        return block().has_g(group)      ? block().g_column[group]
+               : block().has_m(m_state)  ? block().m_column[m_state]
+               : block().has_g(g_cutter) ? block().g_column[g_cutter]
+                                         : 0;
     };
     if (was_on && next_.plane != modes_.plane) return forbid(column_of(g_plane), "the plane cannot change");
     if (was_on && next_.inch != modes_.inch) return forbid(column_of(g_units), "the units cannot change");
     if (was_on && next_.system != modes_.system) return forbid(column_of(g_system), "the work offset cannot change");
     if (frame_now().is_rotated && next_.plane != 0) {
-        return fail_at(column_of(g_cutter), GrblStatus::unsupported,
-                       fmt::format("the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation "
-                                   "is possible in G17 only",
-                                   frame_now().rotation_deg[next_.system]));
+        return words_.fail_at(
+            column_of(g_cutter), GrblStatus::unsupported,
+            fmt::format("the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation "
+                        "is possible in G17 only",
+                        frame_now().rotation_deg[next_.system]));
     }
-    if (was_on && block_.has_g(g_tool_length) && frame_now().tool != frame_.tool)
-        return forbid(block_.g_column[g_tool_length], "the tool length cannot change");
+    if (was_on && block().has_g(g_tool_length) && frame_now().tool != frame_.tool)
+        return forbid(block().g_column[g_tool_length], "the tool length cannot change");
     if (next_.inverse_time) {
         return forbid(column_of(g_feed_mode), "G93 (inverse time) cannot be used");
     }
-    if (was_on && block_.has_m(m_tool))
-        return forbid(block_.m_column[m_tool],
-                      block_.m[m_tool] == 61 ? "M61 cannot set another tool" : "M6 cannot change the tool");
-    const std::int16_t once = block_.has_g(g_nonmodal) ? block_.g[g_nonmodal] : std::int16_t{40};
+    if (was_on && block().has_m(m_tool))
+        return forbid(block().m_column[m_tool],
+                      block().m[m_tool] == 61 ? "M61 cannot set another tool" : "M6 cannot change the tool");
+    const std::int16_t once = block().has_g(g_nonmodal) ? block().g[g_nonmodal] : std::int16_t{40};
     if (once == 40) return true;
-    return forbid(block_.g_column[g_nonmodal], fmt::format("{} cannot be done", name_of_g(once)));
+    return forbid(block().g_column[g_nonmodal], fmt::format("{} cannot be done", name_of_g(once)));
 }
 
 /// Ends the waiting move, the last compensated one, without a corner.
@@ -127,8 +128,8 @@ bool Interpreter::end_waiting_path() {
 }
 
 bool Interpreter::gouges(std::int32_t line) {
-    return fail_at(
-        error_column(), GrblStatus::bad_target,
+    return words_.fail_at(
+        words_.error_column(), GrblStatus::bad_target,
         fmt::format("the cutter (radius {:.6g} mm) would have to move backwards along the move of line {}, which is "
                     "too short between its neighbours: it would cut into the contour; take a smaller cutter or "
                     "leave the move out",
@@ -143,8 +144,8 @@ bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) 
     const PlanePoint centre = {move.centre_first, move.centre_second};
     const bool is_arc = move.kind == MoveKind::arc;
     if (!compensating_ && length({to.first - from.first, to.second - from.second}) <= radius) {
-        return fail_at(
-            error_column(), GrblStatus::bad_target,
+        return words_.fail_at(
+            words_.error_column(), GrblStatus::bad_target,
             fmt::format("the first move with cutter compensation must be longer in its plane than the cutter's "
                         "radius of {:.6g} mm; begin farther away",
                         radius));
@@ -157,8 +158,8 @@ bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) 
                       : lead_in_arc(from, to, centre, move.turns, offset, path))
         return true;
     const double arc_radius = length({from.first - centre.first, from.second - centre.second});
-    return fail_at(
-        error_column(), GrblStatus::bad_radius,
+    return words_.fail_at(
+        words_.error_column(), GrblStatus::bad_radius,
         arc_radius <= radius
             ? fmt::format("the cutter (radius {:.6g} mm) does not fit into this arc of radius {:.6g} mm; take a "
                           "smaller cutter",
@@ -188,7 +189,8 @@ bool Interpreter::compensate() {
     move.centre_first = path.centre.first;
     move.centre_second = path.centre.second;
     if (path.arc && !arc_within_limits(path.start, path.end, path.centre, path.turns)) return off_limits();
-    return (reach(axes[0], path.end.first, error_column()) && reach(axes[1], path.end.second, error_column())) ||
+    return (reach(axes[0], path.end.first, words_.error_column()) &&
+            reach(axes[1], path.end.second, words_.error_column())) ||
            off_limits();
 }
 
@@ -196,12 +198,12 @@ bool Interpreter::compensate() {
 bool Interpreter::reaches_contour() {
     for (int axis = 0; axis < 3; ++axis)
         if (end_[axis] != position_[axis] || end_[axis] != at_[axis])
-            if (!reach(axis, end_[axis], error_column())) return false;
+            if (!reach(axis, end_[axis], words_.error_column())) return false;
     return true;
 }
 
 bool Interpreter::off_limits() {
-    problem_.message = "at the offset contour of the cutter's centre: " + problem_.message;
+    words_.prefix_problem("at the offset contour of the cutter's centre: ");
     return false;
 }
 
@@ -212,8 +214,8 @@ bool Interpreter::join(PlanePoint corner) {
     const CutterPath& path = cutter_plan_.path;
     const CornerJoinPoint junction = join_corner(cutter_path_, path, corner, offset);
     if (junction.kind == CornerJoin::none) {
-        return fail_at(
-            error_column(), GrblStatus::bad_target,
+        return words_.fail_at(
+            words_.error_column(), GrblStatus::bad_target,
             fmt::format("the cutter (radius {:.6g} mm) does not fit into the corner between line {} and this one; "
                         "take a smaller cutter",
                         next_.cutter_radius_mm, cutter_line_));
@@ -221,7 +223,8 @@ bool Interpreter::join(PlanePoint corner) {
     cutter_plan_.joins = true;
     cutter_plan_.last = cutter_path_;
     if (!trim(cutter_plan_.last, cutter_from_, junction.at)) return gouges(cutter_line_);
-    if (!reach(axes[0], junction.at.first, error_column()) || !reach(axes[1], junction.at.second, error_column()))
+    if (!reach(axes[0], junction.at.first, words_.error_column()) ||
+        !reach(axes[1], junction.at.second, words_.error_column()))
         return off_limits();
     cutter_plan_.around = junction.kind == CornerJoin::around;
     cutter_plan_.from = cutter_plan_.around ? path.start : junction.at;
@@ -240,21 +243,24 @@ bool Interpreter::join(PlanePoint corner) {
     arc.end[axes[1]] = path.start.second;
     if (arc.kind == MoveKind::arc && !arc_within_limits(cutter_path_.end, path.start, corner, arc.turns))
         return off_limits();
-    return (reach(axes[0], path.start.first, error_column()) && reach(axes[1], path.start.second, error_column())) ||
+    return (reach(axes[0], path.start.first, words_.error_column()) &&
+            reach(axes[1], path.start.second, words_.error_column())) ||
            off_limits();
 }
 
 /// After G40 the cutter is still on the offset path.
 bool Interpreter::leaves_straight(std::int16_t code) {
     if (!off_path_ || (compensating_ && next_.cutter != CutterSide::off)) return true;
-    return fail_at(error_column(), GrblStatus::bad_target,
-                   fmt::format("{} after G40: the cutter is still at the offset contour; leave it with a straight move",
-                               name_of_g(code)));
+    return words_.fail_at(
+        words_.error_column(), GrblStatus::bad_target,
+        fmt::format("{} after G40: the cutter is still at the offset contour; leave it with a straight move",
+                    name_of_g(code)));
 }
 
 /// Handles the end of the program on this line.
 bool Interpreter::end_cutter() {
-    if (cutter_plan_.begins) return trim(cutter_plan_.path, cutter_plan_.from, cutter_plan_.path.end) || gouges(line_);
+    if (cutter_plan_.begins)
+        return trim(cutter_plan_.path, cutter_plan_.from, cutter_plan_.path.end) || gouges(words_.number());
     return !compensating_ || end_waiting_path();
 }
 
@@ -262,7 +268,7 @@ bool Interpreter::end_cutter() {
 bool Interpreter::may_wait() {
     const bool adds = (todo_ & ~static_cast<std::uint32_t>(todo_comments)) != 0;
     if (!adds || cutter_plan_.begins || next_.cutter == CutterSide::off || ends_program()) return true;
-    return fail_at(
+    return words_.fail_at(
         0, GrblStatus::unsupported,
         fmt::format(
             "{} steps already wait for the contour move after line {}, which is the limit; the line was not executed; "
@@ -281,7 +287,7 @@ void Interpreter::commit_cutter() {
     if (cutter_plan_.begins) {
         cutter_path_ = cutter_plan_.path;
         cutter_from_ = cutter_plan_.from;
-        cutter_line_ = line_;
+        cutter_line_ = words_.number();
         if (ends) held_.settle(axes[0], axes[1], cutter_path_);
     }
     if (compensating_ || cutter_plan_.begins) {
@@ -302,7 +308,7 @@ void Interpreter::settle_junction() {
     if (cutter_plan_.joins) held_.settle(axes[0], axes[1], cutter_plan_.last);
     if (cutter_plan_.around) {
         CanonCall around;
-        around.line = line_;
+        around.line = words_.number();
         around.move = cutter_plan_.arc;
         held_.push(around);
     }
@@ -337,9 +343,7 @@ Outcome<void> Interpreter::finish() {
         held_.settle(axes[0], axes[1], cutter_path_);
         held_.clear();
         resync_position(at_);
-        set_problem(problem_, {}, 0, problem_.status, std::move(problem_.message));
-        problem_.location.line = cutter_line_;
-        return tl::unexpected<Problem>(problem_);
+        return words_.problem_of_earlier(cutter_line_);
     }
     held_.settle(axes[0], axes[1], cutter_plan_.last);
     compensating_ = false;

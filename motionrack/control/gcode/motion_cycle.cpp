@@ -24,17 +24,17 @@ bool Interpreter::cycle_words(std::int16_t code) {
     const char depth = axis_letters[plane_axes[next_.plane][2]];
     if (modes_.motion != code) next_.cycle_words = 0;
     const auto keep = [&](char letter, std::uint32_t mark, double& kept, double value) {
-        if (!block_.has(letter) || (used_ & letter_bit(letter) & ~axis_words) != 0) return;
+        if (!block().has(letter) || (words_.used() & letter_bit(letter) & ~axis_words) != 0) return;
         kept = value;
         next_.cycle_words |= mark;
-        used_ |= letter_bit(letter);
+        words_.use(letter_bit(letter));
     };
-    if (block_.has('R')) keep('R', letter_bit('R'), next_.cycle_r, scaled('R'));
-    if (block_.has(depth)) keep(depth, depth_word, next_.cycle_z, scaled(depth));
+    if (block().has('R')) keep('R', letter_bit('R'), next_.cycle_r, scaled('R'));
+    if (block().has(depth)) keep(depth, depth_word, next_.cycle_z, scaled(depth));
     const bool taps = code == 740 || code == 840, waits = code == 820 || code == 860 || code == 890;
     if (taps && next_.cycle_words == 0) next_.cycle_p = 0;
-    if ((waits || taps) && block_.has('P')) keep('P', letter_bit('P'), next_.cycle_p, block_['P']);
-    if (is_pecking(code) && block_.has('Q')) keep('Q', letter_bit('Q'), next_.cycle_q, scaled('Q'));
+    if ((waits || taps) && block().has('P')) keep('P', letter_bit('P'), next_.cycle_p, block()['P']);
+    if (is_pecking(code) && block().has('Q')) keep('Q', letter_bit('Q'), next_.cycle_q, scaled('Q'));
     const std::uint32_t needed =
         letter_bit('R') | depth_word | (waits ? letter_bit('P') : 0) | (is_pecking(code) ? letter_bit('Q') : 0);
     const std::uint32_t missing = needed & ~next_.cycle_words;
@@ -45,8 +45,8 @@ bool Interpreter::cycle_words(std::int16_t code) {
                        : letter == 'R' ? "the height to which to rapid, e.g. R2"
                        : letter == 'P' ? "the wait at the bottom in seconds, e.g. P0.5"
                                        : "the depth of a peck, e.g. Q1.5";
-    return fail_at(error_column(), GrblStatus::word_missing,
-                   fmt::format("{} word missing: {} needs {}", letter, name_of_g(code), what));
+    return words_.fail_at(words_.error_column(), GrblStatus::word_missing,
+                          fmt::format("{} word missing: {} needs {}", letter, name_of_g(code), what));
 }
 
 /// Tapping reverses the spindle at the bottom (the tap floats in its chuck), G86 stops it: it must turn, and for
@@ -55,20 +55,20 @@ bool Interpreter::spindle_turns(std::int16_t code) {
     const Spindle needed = code == 740 ? Spindle::counter_clockwise : code == 840 ? Spindle::clockwise : next_.spindle;
     if (code != 740 && code != 840 && code != 860) return true;
     if (next_.spindle != Spindle::off && next_.spindle == needed) return true;
-    return fail_at(error_column(), GrblStatus::unsupported,
-                   fmt::format("{} needs the spindle turning{}; write e.g. S500 {} before it", name_of_g(code),
-                               code == 740   ? " counter-clockwise"
-                               : code == 840 ? " clockwise"
-                                             : "",
-                               code == 740 ? "M4" : "M3"));
+    return words_.fail_at(words_.error_column(), GrblStatus::unsupported,
+                          fmt::format("{} needs the spindle turning{}; write e.g. S500 {} before it", name_of_g(code),
+                                      code == 740   ? " counter-clockwise"
+                                      : code == 840 ? " clockwise"
+                                                    : "",
+                                      code == 740 ? "M4" : "M3"));
 }
 
 /// Rejects a peck that is too thin for the depth of the hole, because the cycle would not end in useful time.
 bool Interpreter::pecks_go(const DrillCycle& plan) {
     if (!is_pecking(plan.code) || (plan.peck * max_pecks >= (plan.r - plan.bottom) * plan.repeats && plan.peck > 0))
         return true;
-    return fail_at(
-        block_.has('Q') ? block_.column[letter_index('Q')] : error_column(), GrblStatus::bad_target,
+    return words_.fail_at(
+        block().has('Q') ? block().column[letter_index('Q')] : words_.error_column(), GrblStatus::bad_target,
         fmt::format("the peck depth Q is {:.6g} mm for {} of {:.6g} mm; it must be above 0 and make at most 100000 "
                     "pecks of one line",
                     plan.peck, plan.repeats == 1 ? std::string("a hole") : fmt::format("{} holes", plan.repeats),
@@ -77,21 +77,21 @@ bool Interpreter::pecks_go(const DrillCycle& plan) {
 
 bool Interpreter::cycle(std::int16_t code) {
     if (next_.cutter != CutterSide::off) {
-        return fail_at(
-            error_column(), GrblStatus::axis_conflict,
+        return words_.fail_at(
+            words_.error_column(), GrblStatus::axis_conflict,
             fmt::format("{} cannot drill while cutter compensation is on; write G40 and a straight move before it",
                         name_of_g(code)));
     }
     if (!leaves_straight(code)) return false;
-    if ((block_.words & rotary_words) != 0) {
-        const char letter = static_cast<char>('A' + std::countr_zero(block_.words & rotary_words));
-        return fail_word(letter, GrblStatus::unused_word,
-                         fmt::format("{}: a drilling cycle does not turn axes; put the turn on a line before it",
-                                     word_text(letter)));
+    if ((block().words & rotary_words) != 0) {
+        const char letter = static_cast<char>('A' + std::countr_zero(block().words & rotary_words));
+        return words_.fail_word(letter, GrblStatus::unused_word,
+                                fmt::format("{}: a drilling cycle does not turn axes; put the turn on a line before it",
+                                            words_.word_text(letter)));
     }
     if (next_.inverse_time) {
-        return fail_at(
-            error_column(), GrblStatus::no_feed,
+        return words_.fail_at(
+            words_.error_column(), GrblStatus::no_feed,
             fmt::format("{} cannot be done in G93 (inverse time); write G94 and a feed before it", name_of_g(code)));
     }
     const auto& axes = plane_axes[next_.plane];
@@ -99,10 +99,10 @@ bool Interpreter::cycle(std::int16_t code) {
     const char depth_letter = axis_letters[third];
     if (!in_turned_plane(code) || !spindle_turns(code) || !cycle_words(code)) return false;
     DrillCycle plan;
-    if (block_.has('L')) {
-        if (!need_integer('L', 1, max_repeats, "the number of holes")) return false;
-        plan.repeats = static_cast<std::int32_t>(block_['L']);
-        used_ |= letter_bit('L');
+    if (block().has('L')) {
+        if (!words_.need_integer('L', 1, max_repeats, "the number of holes")) return false;
+        plan.repeats = static_cast<std::int32_t>(block()['L']);
+        words_.use(letter_bit('L'));
     }
     plan.code = code;
     plan.spindle = next_.spindle;
@@ -118,8 +118,8 @@ bool Interpreter::cycle(std::int16_t code) {
     plan.r = next_.incremental ? next_.cycle_level + next_.cycle_r : next_.cycle_r + offset;
     plan.bottom = next_.incremental ? plan.r + next_.cycle_z : next_.cycle_z + offset;
     if (plan.r < plan.bottom) {
-        return fail_at(
-            block_.has('R') ? block_.column[letter_index('R')] : error_column(), GrblStatus::bad_target,
+        return words_.fail_at(
+            block().has('R') ? block().column[letter_index('R')] : words_.error_column(), GrblStatus::bad_target,
             fmt::format("R is at {} = {:.6g} mm, below the bottom of the hole at {:.6g} mm; R must be above it",
                         depth_letter, plan.r - offset, plan.bottom - offset));
     }
@@ -129,13 +129,13 @@ bool Interpreter::cycle(std::int16_t code) {
     plan.seconds = next_.cycle_p;
     if (!pecks_go(plan)) return false;
     plan.pattern.path = PathControl::exact_path;
-    plan.pattern.line = line_;
+    plan.pattern.line = words_.number();
     plan.pattern.kind = MoveKind::feed;
     if (next_.feed == 0) return no_feed();
     plan.pattern.feed = next_.feed;
     if (!cycle_within_limits(plan)) return false;
     cycle_.begin(plan);
-    moving_.line = line_;
+    moving_.line = words_.number();
     moving_.probe = Probe::none;
     motion_ = Motion::cycle;
     todo_ |= todo_motion;
@@ -148,8 +148,8 @@ bool Interpreter::cycle_within_limits(DrillCycle& plan) {
     plan.pattern.end = position_;
     if (!(frame_now().is_rotated ? cycle_places_turned(plan) : cycle_places(plan))) return false;
     const char depth = axis_letters[plan.third];
-    const std::size_t r_column = block_.has('R') ? block_.column[letter_index('R')] : error_column();
-    const std::size_t depth_column = block_.has(depth) ? block_.column[letter_index(depth)] : error_column();
+    const std::size_t r_column = block().has('R') ? block().column[letter_index('R')] : words_.error_column();
+    const std::size_t depth_column = block().has(depth) ? block().column[letter_index(depth)] : words_.error_column();
     end_[plan.third] = plan.clear;
     if (plan.clear != plan.level && !reach(plan.third, plan.clear, r_column)) return false;
     return reach(plan.third, plan.r, r_column) && reach(plan.third, plan.bottom, depth_column);
@@ -160,14 +160,15 @@ bool Interpreter::cycle_places_turned(DrillCycle& plan) {
     const WorkFrame& frame = frame_now();
     Point words = next_.incremental ? Point{} : frame.to_program(position_);
     for (int axis = 0; axis < 2; ++axis)
-        if (block_.has(axis_letters[axis])) words[axis] = scaled(axis_letters[axis]);
+        if (block().has(axis_letters[axis])) words[axis] = scaled(axis_letters[axis]);
     const Point by = frame.rotate(words), to = frame.to_machine(words);
     for (int axis = 0; axis < 2; ++axis) {
         double& step = axis == 0 ? plan.step_first : plan.step_second;
         step = next_.incremental ? by[axis] : 0;
         if (!next_.incremental) plan.pattern.end[axis] = to[axis];
         end_[axis] = plan.pattern.end[axis] + plan.repeats * step;
-        if (!reach(axis, plan.pattern.end[axis] + step, error_column()) || !reach(axis, end_[axis], error_column()))
+        if (!reach(axis, plan.pattern.end[axis] + step, words_.error_column()) ||
+            !reach(axis, end_[axis], words_.error_column()))
             return false;
     }
     return true;
@@ -176,10 +177,10 @@ bool Interpreter::cycle_places_turned(DrillCycle& plan) {
 bool Interpreter::cycle_places(DrillCycle& plan) {
     for (const int axis : {static_cast<int>(plan.first), static_cast<int>(plan.second)}) {
         const char letter = axis_letters[axis];
-        if (!block_.has(letter)) continue;
+        if (!block().has(letter)) continue;
         const double value = scaled(letter);
         double& step = axis == plan.first ? plan.step_first : plan.step_second;
-        const std::size_t column = block_.column[letter_index(letter)];
+        const std::size_t column = block().column[letter_index(letter)];
         if (next_.incremental)
             step = value;
         else

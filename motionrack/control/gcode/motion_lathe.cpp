@@ -22,10 +22,10 @@ bool Interpreter::turning(std::int16_t code) {
     LatheCycle plan;
     plan.code = code;
     if (!turning_allowed(code) || !turning_words(code, plan)) return false;
-    used_ |= axis_words;
+    words_.use(axis_words);
     const Point stays = end_;
     const bool incremental = std::exchange(next_.incremental, false);  // X and Z are absolute in G91 too
-    if ((block_.words & axis_words) != 0 && !targets(false)) return false;
+    if ((block().words & axis_words) != 0 && !targets(false)) return false;
     next_.incremental = incremental;
     plan.start = {end_[2], end_[0]};
     end_ = stays;
@@ -38,14 +38,14 @@ bool Interpreter::turning(std::int16_t code) {
 bool Interpreter::turning_allowed(std::int16_t code) {
     const std::string name = name_of_g(code);
     const auto refuse = [&](GrblStatus status, const std::string& why) {
-        return fail_at(block_.g_column[g_motion], status, name + why);
+        return words_.fail_at(block().g_column[g_motion], status, name + why);
     };
-    if (language_ != Language::program)
+    if (words_.language() != Language::program)
         return refuse(GrblStatus::unsupported, ": a single line has no contour to turn; run the program as a file");
-    if (block_.has_g(g_nonmodal) || axis_words_taken_)
+    if (block().has_g(g_nonmodal) || words_.axis_words_taken())
         return refuse(GrblStatus::axis_conflict,
                       " must not share its words with other codes; put it on a separate line");
-    if (block_.has_m(m_stop) || block_.has_m(m_io))
+    if (block().has_m(m_stop) || block().has_m(m_io))
         return refuse(GrblStatus::unsupported,
                       " must not share a line with a stop, an end or an output; put that on a separate line");
     if (next_.plane != 1)
@@ -60,45 +60,46 @@ bool Interpreter::turning_allowed(std::int16_t code) {
         return refuse(GrblStatus::no_feed, " cannot be done in G93 (inverse time); write G94 and a feed before it");
     if (!leaves_straight(code) || !in_turned_plane(code)) return false;
     for (const char letter : {'Y', 'A', 'B', 'C'}) {
-        if (block_.has(letter))
-            return fail_word(letter, GrblStatus::unused_word,
-                             fmt::format("{}: {} moves X and Z only; put the other axes on a separate line",
-                                         word_text(letter), name));
+        if (block().has(letter))
+            return words_.fail_word(letter, GrblStatus::unused_word,
+                                    fmt::format("{}: {} moves X and Z only; put the other axes on a separate line",
+                                                words_.word_text(letter), name));
     }
     return true;
 }
 
 bool Interpreter::turning_words(std::int16_t code, LatheCycle& plan) {
-    if (!block_.has('Q')) {
-        return fail_at(
-            block_.g_column[g_motion], GrblStatus::word_missing,
+    if (!block().has('Q')) {
+        return words_.fail_at(
+            block().g_column[g_motion], GrblStatus::word_missing,
             fmt::format("Q word missing: {} needs the number of the sub with the contour; write e.g. {} Q100 X30 Z2",
                         name_of_g(code), name_of_g(code)));
     }
-    if (!need_integer('Q', 0, 1e9, "the number of the sub with the contour")) return false;
-    contour_label_ = fmt::format("{:.0f}", block_['Q']);
-    used_ |= letter_bit('Q') | letter_bit('D');
+    if (!words_.need_integer('Q', 0, 1e9, "the number of the sub with the contour")) return false;
+    contour_label_ = fmt::format("{:.0f}", block()['Q']);
+    words_.use(letter_bit('Q') | letter_bit('D'));
     for (const char letter : {'D', 'E', 'R'}) {
-        if (block_.has(letter) && block_[letter] < 0)
-            return fail_word(letter, GrblStatus::negative_value,
-                             fmt::format("{} is negative; it is a distance, 0 or more", word_text(letter)));
+        if (block().has(letter) && block()[letter] < 0)
+            return words_.fail_word(
+                letter, GrblStatus::negative_value,
+                fmt::format("{} is negative; it is a distance, 0 or more", words_.word_text(letter)));
     }
-    if (block_.has('D')) plan.distance = scaled('D');
+    if (block().has('D')) plan.distance = scaled('D');
     if (code == finishing) {
-        used_ |= letter_bit('E') | letter_bit('P');
-        if (block_.has('E')) plan.end_distance = scaled('E');
-        if (block_.has('P') && !need_integer('P', 1, max_passes, "the number of passes")) return false;
-        if (block_.has('P')) plan.passes = static_cast<std::int32_t>(block_['P']);
+        words_.use(letter_bit('E') | letter_bit('P'));
+        if (block().has('E')) plan.end_distance = scaled('E');
+        if (block().has('P') && !words_.need_integer('P', 1, max_passes, "the number of passes")) return false;
+        if (block().has('P')) plan.passes = static_cast<std::int32_t>(block()['P']);
         return true;
     }
-    used_ |= letter_bit('I') | letter_bit('R');
+    words_.use(letter_bit('I') | letter_bit('R'));
     const double unit = next_.inch ? 25.4 : 1;
-    plan.depth = block_.has('I') ? scaled('I') : unit;
-    plan.retract = block_.has('R') ? scaled('R') : 0.5 * unit;
+    plan.depth = block().has('I') ? scaled('I') : unit;
+    plan.retract = block().has('R') ? scaled('R') : 0.5 * unit;
     if (plan.depth >= min_depth) return true;
-    return fail_word(
+    return words_.fail_word(
         'I', GrblStatus::bad_target,
-        fmt::format("{}: I is the depth of each cut; it must be {} mm or more", word_text('I'), min_depth));
+        fmt::format("{}: I is the depth of each cut; it must be {} mm or more", words_.word_text('I'), min_depth));
 }
 
 Interpreter Interpreter::contour_interpreter() const {
@@ -115,16 +116,15 @@ Interpreter Interpreter::contour_interpreter() const {
 }
 
 Outcome<void> Interpreter::turn(std::vector<ContourSegment> contour) {
-    const std::size_t column = block_.g_column[g_motion];
+    const std::size_t column = block().g_column[g_motion];
     const std::string fault =
         gcode::make_lathe_moves(*turning_, std::move(contour), {position_[2], position_[0]}, turned_);
     const std::string name = name_of_g(turning_->code);
     turning_.reset();
-    if (!fault.empty()) fail_at(column, GrblStatus::bad_target, fmt::format("{}: {}", name, fault));
+    if (!fault.empty()) words_.fail_at(column, GrblStatus::bad_target, fmt::format("{}: {}", name, fault));
     if (!fault.empty() || !turning_within_limits()) {
         todo_ = 0;
-        problem_.location.line = line_;
-        return tl::unexpected<Problem>(problem_);
+        return words_.problem_of(words_.number());
     }
     turned_pulled_ = 0;
     if (turned_.empty()) return {};
@@ -137,7 +137,7 @@ Outcome<void> Interpreter::turn(std::vector<ContourSegment> contour) {
 }
 
 bool Interpreter::turning_within_limits() {
-    const std::size_t column = block_.g_column[g_motion];
+    const std::size_t column = block().g_column[g_motion];
     PlanePoint from = {position_[2], position_[0]};
     for (const LatheMove& move : turned_) {
         if (!reach(2, move.to.first, column) || !reach(0, move.to.second, column)) return false;

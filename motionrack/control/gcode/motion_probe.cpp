@@ -8,7 +8,9 @@ namespace motionrack::control::gcode {
 
 bool Interpreter::may_probe(std::int16_t code) {
     const std::string name = name_of_g(code);
-    const auto refuse = [&](GrblStatus status, const char* why) { return fail_at(error_column(), status, name + why); };
+    const auto refuse = [&](GrblStatus status, const char* why) {
+        return words_.fail_at(words_.error_column(), status, name + why);
+    };
     if (!settings_.probe) {
         return refuse(
             GrblStatus::unsupported,
@@ -27,7 +29,9 @@ bool Interpreter::may_probe(std::int16_t code) {
 /// Turns the move prepared by straight() into a probing move.
 bool Interpreter::probing(std::int16_t code) {
     const std::string name = name_of_g(code);
-    const auto refuse = [&](GrblStatus status, const char* why) { return fail_at(error_column(), status, name + why); };
+    const auto refuse = [&](GrblStatus status, const char* why) {
+        return words_.fail_at(words_.error_column(), status, name + why);
+    };
     for (int axis = 3; axis < axis_count; ++axis)
         if (end_[axis] != position_[axis])
             return refuse(GrblStatus::unused_word, " does not turn axes; put the turn on a line before it");

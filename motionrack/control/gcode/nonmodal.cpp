@@ -8,7 +8,7 @@
 namespace motionrack::control::gcode {
 
 bool Interpreter::nonmodal() {
-    const std::int16_t code = block_.g[g_nonmodal];
+    const std::int16_t code = block().g[g_nonmodal];
     switch (code) {
         case 40:
             return dwell();
@@ -46,30 +46,30 @@ bool Interpreter::nonmodal() {
         default:
             return true;  // G53 belongs to the motion
     }
-    if ((block_.words & axis_words) != 0 && !block_.has_g(g_motion)) {
-        const char letter = static_cast<char>('A' + std::countr_zero(block_.words & axis_words));
-        return fail_word(letter, GrblStatus::axis_words_unused,
-                         fmt::format("{}: {} takes no axis words; put the move on a separate line", word_text(letter),
-                                     name_of_g(code)));
+    if ((block().words & axis_words) != 0 && !block().has_g(g_motion)) {
+        const char letter = static_cast<char>('A' + std::countr_zero(block().words & axis_words));
+        return words_.fail_word(letter, GrblStatus::axis_words_unused,
+                                fmt::format("{}: {} takes no axis words; put the move on a separate line",
+                                            words_.word_text(letter), name_of_g(code)));
     }
     return true;
 }
 
 bool Interpreter::dwell() {
-    if (!block_.has('P')) {
-        return fail_at(block_.g_column[g_nonmodal], GrblStatus::word_missing,
-                       "P word missing: G4 needs a time in seconds; write e.g. G4 P0.5");
+    if (!block().has('P')) {
+        return words_.fail_at(block().g_column[g_nonmodal], GrblStatus::word_missing,
+                              "P word missing: G4 needs a time in seconds; write e.g. G4 P0.5");
     }
-    used_ |= letter_bit('P');
-    dwell_seconds_ = block_['P'];
+    words_.use(letter_bit('P'));
+    dwell_seconds_ = block()['P'];
     todo_ |= todo_dwell;
     return true;
 }
 
 bool Interpreter::shift() {
-    if (axis_words_taken_ || (block_.words & axis_words) == 0) {
-        return fail_at(
-            block_.g_column[g_nonmodal], GrblStatus::no_axis_words,
+    if (words_.axis_words_taken() || (block().words & axis_words) == 0) {
+        return words_.fail_at(
+            block().g_column[g_nonmodal], GrblStatus::no_axis_words,
             "axis words missing: G92 needs at least one of its own; write e.g. G92 X0 Y0 (G92.1 ends the shift)");
     }
     WorkFrame& frame = edit_frame();
@@ -79,27 +79,26 @@ bool Interpreter::shift() {
     const Point unshifted = frame.to_program(position_);
     frame.g92 = shifted_before;
     for (int axis = 0; axis < axis_count; ++axis) {
-        if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
-        frame.g92[axis] = unshifted[axis] - block_.value[axis_letter(axis)] * scale_of(axis);
+        if ((block().words & letter_bit(axis_letters[axis])) == 0) continue;
+        frame.g92[axis] = unshifted[axis] - block().value[axis_letter(axis)] * scale_of(axis);
     }
     frame.g92_saved = frame.g92;
     frame.activate(next_.system);
-    axis_words_taken_ = true;
-    used_ |= axis_words;
+    words_.take_axis_words();
     return true;
 }
 
 bool Interpreter::reference() {
-    if (axis_words_taken_) {
-        return fail_at(block_.g_column[g_nonmodal], GrblStatus::axis_conflict,
-                       fmt::format("{} and {} on one line both use axis words; put them on two lines",
-                                   name_of_g(block_.g[g_nonmodal]), name_of_g(block_.g[g_tool_length])));
+    if (words_.axis_words_taken()) {
+        return words_.fail_at(block().g_column[g_nonmodal], GrblStatus::axis_conflict,
+                              fmt::format("{} and {} on one line both use axis words; put them on two lines",
+                                          name_of_g(block().g[g_nonmodal]), name_of_g(block().g[g_tool_length])));
     }
-    const std::uint32_t axes = block_.words & axis_words;
+    const std::uint32_t axes = block().words & axis_words;
     if (axes != 0 && !targets(false)) return false;
     via_ = end_;
-    const Point& home = block_.g[g_nonmodal] == 280 ? frame_now().g28 : frame_now().g30;
-    const std::size_t column = block_.g_column[g_nonmodal];
+    const Point& home = block().g[g_nonmodal] == 280 ? frame_now().g28 : frame_now().g30;
+    const std::size_t column = block().g_column[g_nonmodal];
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::uint32_t bit = letter_bit(axis_letters[axis]);
         if ((present_words_ & bit) == 0 || (axes != 0 && (axes & bit) == 0)) continue;
@@ -110,8 +109,7 @@ bool Interpreter::reference() {
     motion_ = axes != 0 ? Motion::via_point : Motion::single;
     via_point_pending_ = false;
     todo_ |= todo_motion;
-    axis_words_taken_ = true;
-    used_ |= axis_words;
+    words_.take_axis_words();
     return true;
 }
 

@@ -13,7 +13,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-char upper(char c) {
+char to_capital(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c & ~0x20) : c;
 }
 
@@ -65,7 +65,7 @@ struct LineReader {
 
 bool LineReader::word(const char*& at, const char* end) {
     const char* begin = at;
-    const char letter = upper(*at++);
+    const char letter = to_capital(*at++);
     const bool is_letter = letter >= 'A' && letter <= 'Z';
     const Slot slot = slot_of(letter, tool);
     const bool missing_axis = letter == 'U' || letter == 'V' || letter == 'W';

@@ -43,7 +43,7 @@ std::size_t end_of_parameter(std::string_view text) {
 /// Uses the values after the assignments of the line and before its motion, as LinuxCNC.
 void Interpreter::show_values() {
     shown_.clear();
-    for (const Comment& comment : block_.comments)
+    for (const Comment& comment : block().comments)
         shown_.push_back(comment.values ? substitute_values(comment.text) : std::string());
 }
 
