@@ -26,12 +26,10 @@ Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
         high_[axis] = limits.present ? limits.max_position + limit_slack : -nowhere;
         if (limits.present) present_words_ |= letter_bit(axis_letters[axis]);
     }
-    modes_.tolerance_mm = settings.path_tolerance_mm;
-    if (settings.start_in_g0) modes_.motion = 0;
+    modes_.start(settings.path_tolerance_mm, settings.start_in_g0);
     frame_.work = settings.work_offsets;
     frame_.g28 = settings.g28;
     frame_.g30 = settings.g30;
-    next_ = modes_;
     frame_.activate(0);
     tools_ = settings.tools;
     position_ = settings.start;
@@ -52,7 +50,7 @@ Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Lang
 }
 
 bool Interpreter::evaluate() {
-    next_ = modes_;
+    modes_.begin_line();
     frame_edited_ = false;
     cutter_plan_.clear();
     tool_edited_.reset();
@@ -64,14 +62,14 @@ bool Interpreter::evaluate() {
     if ((block().m_groups | (block().words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words())
         return false;
     if ((block().g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
-    if (next_.cutter != CutterSide::off && !cutter_allows()) return false;
+    if (next().cutter != CutterSide::off && !cutter_allows()) return false;
     if (block().has('F')) apply_feed();
     if (block().has_g(g_nonmodal) && !nonmodal()) return false;
     if (!motion()) return false;
     if (block().has_m(m_io) && !ports()) return false;
-    if (ends_program() && next_.cutter != CutterSide::off && !end_cutter()) return false;
+    if (ends_program() && next().cutter != CutterSide::off && !end_cutter()) return false;
     if (held_.full() && !may_wait()) return false;
-    if (!words_.need_all_used(next_.motion)) return false;
+    if (!words_.need_all_used(next().motion)) return false;
     if (!block().comments.empty()) {
         todo_ |= todo_comments;
         comments_pulled_ = 0;
@@ -79,7 +77,7 @@ bool Interpreter::evaluate() {
     if (!block().assignments.empty() && !assign()) return false;
     if (!block().comments.empty()) show_values();
     if (tool_edited_) tools_.put(*tool_edited_);
-    if (block().has_m(m_state)) save_modes();
+    if (block().has_m(m_state)) modes_.save(block().m[m_state], static_cast<std::size_t>(parameters_.level()));
     if (block().has_m(m_io) && block().m[m_io] == 66) parameters_.set(input_parameter, port_value_);
     commit();
     return true;
@@ -145,34 +143,34 @@ bool Interpreter::check_values() {
 }
 
 bool Interpreter::apply_modes() {
-    if (block().has_g(g_units)) next_.inch = block().g[g_units] == 200;
+    if (block().has_g(g_units)) next().inch = block().g[g_units] == 200;
     if (block().has_g(g_feed_mode)) {
         const bool inverse = block().g[g_feed_mode] == 930;
-        if (inverse != next_.inverse_time) next_.feed = next_.feed_rotary = 0;
-        next_.inverse_time = inverse;
+        if (inverse != next().inverse_time) next().feed = next().feed_rotary = 0;
+        next().inverse_time = inverse;
     }
-    if (block().has_g(g_plane)) next_.plane = static_cast<std::uint8_t>((block().g[g_plane] - 170) / 10);
-    if (block().has_g(g_distance)) next_.incremental = block().g[g_distance] == 910;
-    if (block().has_g(g_arc_distance)) next_.arc_absolute = block().g[g_arc_distance] == 901;
-    if (block().has_g(g_retract)) next_.retract_to_r = block().g[g_retract] == 990;
+    if (block().has_g(g_plane)) next().plane = static_cast<std::uint8_t>((block().g[g_plane] - 170) / 10);
+    if (block().has_g(g_distance)) next().incremental = block().g[g_distance] == 910;
+    if (block().has_g(g_arc_distance)) next().arc_absolute = block().g[g_arc_distance] == 901;
+    if (block().has_g(g_retract)) next().retract_to_r = block().g[g_retract] == 990;
     if (block().has_g(g_cutter) && !cutter()) return false;
     if (block().has_g(g_tool_length) && !tool_length()) return false;
     if (block().has_g(g_system)) {
         const int code = block().g[g_system];
-        next_.system = static_cast<std::uint8_t>(code > 590 ? code - 585 : (code - 540) / 10);
-        edit_frame().activate(next_.system);
+        next().system = static_cast<std::uint8_t>(code > 590 ? code - 585 : (code - 540) / 10);
+        edit_frame().activate(next().system);
     }
     if (block().has_g(g_path)) {
         const int code = block().g[g_path];
-        next_.path = code == 610   ? PathControl::exact_path
-                     : code == 611 ? PathControl::exact_stop
-                                   : PathControl::continuous;
+        next().path = code == 610   ? PathControl::exact_path
+                      : code == 611 ? PathControl::exact_stop
+                                    : PathControl::continuous;
         if (code == 640) {
-            next_.tolerance_mm = settings_.path_tolerance_mm;
+            next().tolerance_mm = settings_.path_tolerance_mm;
             const bool others =
                 block().has_g(g_nonmodal) && (block().g[g_nonmodal] == 40 || block().g[g_nonmodal] == 100);
             if (block().has('P') && !others) {
-                next_.tolerance_mm = scaled('P');
+                next().tolerance_mm = scaled('P');
                 words_.use(letter_bit('P'));
             }
         }
@@ -181,22 +179,22 @@ bool Interpreter::apply_modes() {
 }
 
 void Interpreter::apply_feed() {
-    if (next_.inverse_time) {
-        next_.feed = block()['F'] / 60;
+    if (next().inverse_time) {
+        next().feed = block()['F'] / 60;
     } else {
-        next_.feed = scaled('F') / 60;
-        next_.feed_rotary = block()['F'] / 60;
+        next().feed = scaled('F') / 60;
+        next().feed_rotary = block()['F'] / 60;
     }
 }
 
 void Interpreter::commit() {
     if ((todo_ & (todo_dwell | todo_wait)) != 0) dwell_at_ = position();
     end_pending_ = ends_program();
-    moving_.overridable = next_.feed_override;
+    moving_.overridable = next().feed_override;
     position_ = end_;
-    modes_ = next_;
+    modes_.commit();
     if (frame_edited_) frame_ = next_frame_;
-    if (modes_.cutter != CutterSide::off || off_path_) commit_cutter();
+    if (modes().cutter != CutterSide::off || off_path_) commit_cutter();
     if ((todo_ & todo_motion) != 0 && moving_.probe != Probe::none) store_probe_result(true, position_);
 }
 
@@ -216,11 +214,11 @@ const CanonCall* Interpreter::pull_next() {
     todo_ &= ~what;
     event_ = CanonCall{};
     event_.line = words_.number();
-    event_.speed_rpm = modes_.speed_rpm;
-    event_.tool = modes_.tool_selected;
-    event_.mist = modes_.mist;
-    event_.flood = modes_.flood;
-    event_.overridable = modes_.feed_override;
+    event_.speed_rpm = modes().speed_rpm;
+    event_.tool = modes().tool_selected;
+    event_.mist = modes().mist;
+    event_.flood = modes().flood;
+    event_.overridable = modes().feed_override;
     switch (what) {
         case todo_spindle_speed:
             event_.kind = CanonCallKind::spindle_speed;
@@ -230,14 +228,14 @@ const CanonCall* Interpreter::pull_next() {
             break;
         case todo_tool_change:
             event_.kind = block().m[m_tool] == 61 ? CanonCallKind::tool_number : CanonCallKind::tool_change;
-            event_.tool = modes_.tool_loaded;
+            event_.tool = modes().tool_loaded;
             break;
         case todo_coolant:
             event_.kind = CanonCallKind::coolant;
             break;
         case todo_spindle:
             event_.kind = CanonCallKind::spindle;
-            event_.spindle = modes_.spindle;
+            event_.spindle = modes().spindle;
             break;
         case todo_wait:
             fill_dwell(wait_seconds_);
@@ -265,8 +263,8 @@ const CanonCall* Interpreter::pull_next() {
 void Interpreter::fill_dwell(double seconds) {
     Move& move = event_.move;
     move.kind = MoveKind::dwell;
-    move.path = modes_.path;
-    move.tolerance_mm = modes_.tolerance_mm;
+    move.path = modes().path;
+    move.tolerance_mm = modes().tolerance_mm;
     move.line = words_.number();
     move.seconds = seconds;
     move.end = dwell_at_;

@@ -37,6 +37,7 @@
 #include <motionrack/control/gcode/language/parameters.hpp>
 #include <motionrack/control/gcode/lathe_cycle.hpp>
 #include <motionrack/control/gcode/line_words.hpp>
+#include <motionrack/control/gcode/modal_state.hpp>
 #include <motionrack/control/gcode/settings.hpp>
 #include <motionrack/control/gcode/work_frame.hpp>
 
@@ -44,48 +45,6 @@ namespace motionrack::control::gcode {
 
 /// Positions may exceed a limit by this much (mm or degrees): the rounding error of sums.
 inline constexpr double limit_slack = 1e-6;
-
-inline constexpr std::int16_t no_motion = -1;
-
-/// Side of the contour, seen along it from the positive third axis.
-enum class CutterSide : std::uint8_t { off, left, right };
-
-/// Numeric modal state.
-struct ModalState {
-    std::int16_t motion =
-        no_motion;             ///< G code in tenths: 0, 10, 20, 30, 50, 51, 382 .. 385, 730 .. 890; no_motion after G80
-    std::uint8_t plane = 0;    ///< 0 G17, 1 G18, 2 G19
-    std::uint8_t system = 0;   ///< 0 G54 .. 5 G59, 6 G59.1 .. 8 G59.3
-    bool inch = false;         ///< G20
-    bool incremental = false;  ///< G91
-    bool arc_absolute = false;  ///< G90.1
-    bool inverse_time = false;  ///< G93
-    bool retract_to_r = false;  ///< G99
-    PathControl path = PathControl::continuous;
-    CutterSide cutter = CutterSide::off;  ///< G40 G41 G42
-    Spindle spindle = Spindle::off;
-    bool mist = false;
-    bool flood = false;
-    bool ended = false;               ///< after M2, M30
-    bool feed_override = true;        ///< M48, M50
-    bool speed_override = true;       ///< M48, M51
-    bool feed_stop = true;            ///< M53
-    std::int32_t tool_selected = -1;  ///< by T; -1: none yet
-    std::int32_t tool_loaded = -1;    ///< by M6; -1: none yet
-    double cutter_radius_mm = 0;      ///< if `cutter` is not off
-    double tolerance_mm = 0;
-    double feed = 0;         ///< feed rate, G94: mm/s, G93: 1/s; 0: none yet
-    double feed_rotary = 0;  ///< feed rate in G94 if no linear axis moves, degrees/s
-    double speed_rpm = 0;
-    std::uint32_t cycle_words = 0;  ///< bits of the next four words that were given since the cycle's G word
-    double cycle_r = 0;             ///< as written, mm
-    double cycle_z = 0;             ///< word of the drilling axis, as written, mm
-    double cycle_q = 0;             ///< mm
-    double cycle_p = 0;             ///< seconds
-    PlanePoint spline_end;          ///< last G5: P and Q, mm
-    PlanePoint spline_at;           ///< end of the last G5
-    double cycle_level = 0;         ///< G98: machine coordinate of the drilling axis before the first hole
-};
 
 /// Effect of a line on the move that waits before it, and the move that waits after it.
 struct CompensationPlan {
@@ -137,11 +96,8 @@ class Interpreter {
     /// compensation.
     void resync_position(const Point& position);
     /// Sets the coolant state after manual switching.
-    void set_coolant(bool mist, bool flood) {
-        modes_.mist = mist;
-        modes_.flood = flood;
-    }
-    const ModalState& modes() const { return modes_; }
+    void set_coolant(bool mist, bool flood) { modes_.set_coolant(mist, flood); }
+    const ModalState& modes() const { return modes_.now(); }
     const WorkFrame& frame() const { return frame_; }
     const Block& block() const { return words_.block(); }  ///< words of the last line
     const Parameters& parameters() const { return parameters_; }
@@ -212,9 +168,7 @@ class Interpreter {
     void shift_turned(WorkFrame& frame, int system);
     bool edit_tool(int what);
     bool edit_tool_shape(Tool& tool);
-    void save_modes();
     void restore(const ModalState& saved);
-    bool goes_beside(const ModalState& saved) const;
     bool shift();
     bool reference();
     bool motion();
@@ -235,7 +189,7 @@ class Interpreter {
     bool cutter();
     bool cutter_diameter(double& diameter);
     bool cutter_allows();
-    bool compensates() const { return next_.cutter != CutterSide::off && next_.cutter_radius_mm > 0; }
+    bool compensates() const { return next().cutter != CutterSide::off && next().cutter_radius_mm > 0; }
     bool compensate();
     bool path_beside(PlanePoint from, PlanePoint to, CutterPath& path);
     bool join(PlanePoint corner);
@@ -283,8 +237,10 @@ class Interpreter {
     void show_values();
     std::string substitute_values(std::string_view text) const;
 
-    double scale_of(int axis) const { return axis < 3 && next_.inch ? 25.4 : 1.0; }
-    double scaled(char letter) const { return next_.inch ? block()[letter] * 25.4 : block()[letter]; }
+    double scale_of(int axis) const { return axis < 3 && next().inch ? 25.4 : 1.0; }
+    double scaled(char letter) const { return next().inch ? block()[letter] * 25.4 : block()[letter]; }
+    ModalState& next() { return modes_.next(); }
+    const ModalState& next() const { return modes_.next(); }
     WorkFrame& edit_frame();
     const WorkFrame& frame_now() const { return frame_edited_ ? next_frame_ : frame_; }
     static std::size_t axis_letter(int axis) { return static_cast<std::size_t>(letter_index(axis_letters[axis])); }
@@ -295,20 +251,13 @@ class Interpreter {
     Point high_ = {};
     std::uint32_t present_words_ = 0;
 
-    ModalState modes_;
+    Modes modes_;
     WorkFrame frame_;
     Point position_ = {};
     Parameters parameters_;
     ToolTable tools_;
-    /// Modes saved by M70 and M73, by call depth.
-    struct SavedModes {
-        std::optional<ModalState> modes;
-        bool comes_back = false;  ///< restored at the end of the call (M73)
-    };
-    std::vector<SavedModes> kept_;
 
     // Changes by the current line, applied when it is valid.
-    ModalState next_;
     WorkFrame next_frame_;
     bool frame_edited_ = false;
     Point end_ = {};

@@ -7,37 +7,36 @@ namespace motionrack::control::gcode {
 
 bool Interpreter::apply_machine_words() {
     if (block().has('S')) {
-        next_.speed_rpm = block()['S'];
+        next().speed_rpm = block()['S'];
         todo_ |= todo_spindle_speed;
     }
     if (block().has('T')) {
-        next_.tool_selected = static_cast<std::int32_t>(block()['T']);
+        next().tool_selected = static_cast<std::int32_t>(block()['T']);
         todo_ |= todo_tool_select;
     }
     if (block().has_m(m_tool) && block().m[m_tool] == 61) {
         if (!set_tool()) return false;
     } else if (block().has_m(m_tool)) {
-        if (next_.tool_selected < 0) {
+        if (next().tool_selected < 0) {
             return words_.fail_at(
                 block().m_column[m_tool], GrblStatus::word_missing,
                 "M6 changes to the tool selected by a T word, and none was selected; write e.g. T1 M6");
         }
-        next_.tool_loaded = next_.tool_selected;
+        next().tool_loaded = next().tool_selected;
         todo_ |= todo_tool_change;
     }
     if (block().has_m(m_spindle)) {
         const int code = block().m[m_spindle];
-        next_.spindle = code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
+        next().spindle = code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
         todo_ |= todo_spindle;
     }
-    if (block().has_m(m_mist)) next_.mist = true;
-    if (block().has_m(m_flood)) next_.flood = true;
-    if (block().has_m(m_coolant_off)) next_.mist = next_.flood = false;
+    if (block().has_m(m_mist)) next().mist = true;
+    if (block().has_m(m_flood)) next().flood = true;
+    if (block().has_m(m_coolant_off)) next().mist = next().flood = false;
     if ((block().m_groups & (1u << m_mist | 1u << m_flood | 1u << m_coolant_off)) != 0) todo_ |= todo_coolant;
     if (block().has_m(m_override) && !overrides()) return false;
     if (block().has_m(m_state) && block().m[m_state] == 72) {
-        const auto level = static_cast<std::size_t>(parameters_.level());
-        if (level < kept_.size() && kept_[level].modes) restore(*kept_[level].modes);
+        if (const ModalState* saved = modes_.saved(static_cast<std::size_t>(parameters_.level()))) restore(*saved);
     }
     if (block().has_m(m_stop)) {
         stop_code_ = block().m[m_stop];
@@ -50,19 +49,8 @@ bool Interpreter::apply_machine_words() {
 /// before it on the line keep their frame.
 void Interpreter::apply_end() {
     end_pending_ = false;
-    next_ = modes_;
-    next_.motion = 10;
-    next_.plane = 0;
-    next_.incremental = next_.inverse_time = next_.arc_absolute = false;
-    next_.feed = next_.feed_rotary = 0;
-    next_.spindle = Spindle::off;
-    next_.mist = next_.flood = false;
-    next_.feed_override = next_.speed_override = true;
-    next_.ended = true;
-    next_.cutter = CutterSide::off;
-    next_.system = 0;
-    frame_.activate(next_.system);
-    modes_ = next_;
+    modes_.end_program();
+    frame_.activate(modes().system);
 }
 
 /// M48 .. M53. The machine has no spindle override or feed stop switch: their state is stored and reported.
@@ -76,9 +64,9 @@ bool Interpreter::overrides() {
             block().m_column[m_override], GrblStatus::unsupported,
             "M52: adaptive feed needs an input that this machine does not have; leave it out (M52 P0 is accepted)");
     }
-    if (code <= 50) next_.feed_override = on;
-    if (code <= 49 || code == 51) next_.speed_override = on;
-    if (code == 53) next_.feed_stop = on;
+    if (code <= 50) next().feed_override = on;
+    if (code <= 49 || code == 51) next().speed_override = on;
+    if (code == 53) next().feed_stop = on;
     todo_ |= todo_overrides;
     return true;
 }
@@ -87,10 +75,10 @@ void Interpreter::fill_overrides() {
     const int code = block().m[m_override];
     event_.kind = CanonCallKind::overrides;
     event_.port = code;
-    event_.value = code == 51   ? modes_.speed_override
+    event_.value = code == 51   ? modes().speed_override
                    : code == 52 ? false
-                   : code == 53 ? modes_.feed_stop
-                                : modes_.feed_override;
+                   : code == 53 ? modes().feed_stop
+                                : modes().feed_override;
 }
 
 /// M98 P L and M99 must be alone on the line; ProgramFlow executes them.
@@ -129,7 +117,7 @@ bool Interpreter::set_tool() {
     const auto number = static_cast<std::int32_t>(block()['Q']);
     if (!require_tool('Q', number)) return false;
     words_.use(letter_bit('Q'));
-    next_.tool_loaded = number;
+    next().tool_loaded = number;
     todo_ |= todo_tool_change;
     return true;
 }
@@ -142,61 +130,30 @@ bool Interpreter::require_tool(char letter, std::int32_t number) {
         fmt::format("{}: the tool table has no tool {}; write it into the table", words_.word_text(letter), number));
 }
 
-/// M70 saves the modes, M71 discards them, M72 restores them, M73 saves them until the call ends. Spindle and coolant
-/// are not affected.
-void Interpreter::save_modes() {
-    const int code = block().m[m_state];
-    if (code == 72) return;
-    const auto level = static_cast<std::size_t>(parameters_.level());
-    if (kept_.size() <= level) kept_.resize(level + 1);
-    kept_[level] = {};
-    if (code != 71) kept_[level] = {modes_, code == 73};
-}
-
+/// Restores modes that M70 or M73 saved.
 void Interpreter::restore(const ModalState& saved) {
-    next_.plane = saved.plane;
-    next_.system = saved.system;
-    next_.inch = saved.inch;
-    next_.incremental = saved.incremental;
-    next_.arc_absolute = saved.arc_absolute;
-    next_.inverse_time = saved.inverse_time;
-    next_.retract_to_r = saved.retract_to_r;
-    next_.path = saved.path;
-    next_.tolerance_mm = saved.tolerance_mm;
-    next_.feed = saved.feed;
-    next_.feed_rotary = saved.feed_rotary;
-    next_.feed_override = saved.feed_override;
-    next_.speed_override = saved.speed_override;
-    next_.feed_stop = saved.feed_stop;
-    if (next_.system != modes_.system || frame_edited_) edit_frame().activate(next_.system);
+    modes_.restore(saved);
+    if (next().system != modes().system || frame_edited_) edit_frame().activate(next().system);
 }
 
 bool Interpreter::end_call(std::optional<double> returned) {
     const auto level = static_cast<std::size_t>(parameters_.level());
     parameters_.leave(returned);
-    if (kept_.size() <= level) return true;
-    const SavedModes kept = kept_[level];
-    kept_.resize(level);
-    if (!kept.modes || !kept.comes_back) return true;
-    if (modes_.cutter != CutterSide::off && !goes_beside(*kept.modes)) return false;
-    next_ = modes_;
+    const std::optional<ModalState> kept = modes_.leave_call(level);
+    if (!kept) return true;
+    if (modes().cutter != CutterSide::off && !modes_.can_stay_beside(*kept)) return false;
+    modes_.begin_line();
     frame_edited_ = false;
-    restore(*kept.modes);
-    modes_ = next_;
+    restore(*kept);
+    modes_.commit();
     if (frame_edited_) frame_ = next_frame_;
     return true;
 }
 
-/// Returns true if cutter compensation can stay on with the restored modes.
-bool Interpreter::goes_beside(const ModalState& saved) const {
-    return saved.plane == modes_.plane && saved.inch == modes_.inch && saved.system == modes_.system &&
-           !saved.inverse_time;
-}
-
 void Interpreter::reset_after_program() {
-    modes_.feed_override = modes_.speed_override = true;
+    modes_.enable_overrides();
     frame_.rotation_deg = {};
-    frame_.activate(modes_.system);
+    frame_.activate(modes().system);
 }
 
 }  // namespace motionrack::control::gcode

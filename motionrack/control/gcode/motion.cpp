@@ -27,9 +27,9 @@ bool is_probing(std::int16_t code) {
 
 bool Interpreter::motion() {
     const bool is_explicit = block().has_g(g_motion);
-    std::int16_t code = is_explicit ? block().g[g_motion] : modes_.motion;
+    std::int16_t code = is_explicit ? block().g[g_motion] : modes().motion;
     if (code == 800) code = no_motion;
-    next_.motion = code;
+    next().motion = code;
     if (is_explicit && is_turning(code)) return turning(code);
     const bool own_axis_words = !words_.axis_words_taken() && (block().words & axis_words) != 0;
     const bool own_offsets = (is_arc(code) || is_spline(code)) && (block().words & offset_words) != 0;
@@ -93,14 +93,14 @@ bool Interpreter::targets(bool machine_coordinates) {
     if (frame_now().is_rotated && !machine_coordinates) return targets_turned();
     const Point& offset = frame_now().offset;
     const bool offset_contour = compensates();
-    const int third = next_.plane == 0 ? 2 : next_.plane == 1 ? 1 : 0;
+    const int third = next().plane == 0 ? 2 : next().plane == 1 ? 1 : 0;
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::size_t index = axis_letter(axis);
         if ((block().words >> index & 1) == 0) continue;
         const double value = block().value[index] * scale_of(axis);
-        const double target = machine_coordinates ? value
-                              : next_.incremental ? position_[axis] + value
-                                                  : value + offset[axis];
+        const double target = machine_coordinates  ? value
+                              : next().incremental ? position_[axis] + value
+                                                   : value + offset[axis];
         if (!(offset_contour && axis < 3 && axis != third) && !reach(axis, target, block().column[index])) return false;
         end_[axis] = target;
     }
@@ -112,7 +112,7 @@ bool Interpreter::targets_turned() {
     const WorkFrame& frame = frame_now();
     const bool offset_contour = compensates();
     const std::uint32_t turning = letter_bit('X') | letter_bit('Y');
-    Point program = next_.incremental ? Point{} : frame.to_program(position_);
+    Point program = next().incremental ? Point{} : frame.to_program(position_);
     for (int axis = 0; axis < axis_count; ++axis)
         if ((block().words & letter_bit(axis_letters[axis])) != 0)
             program[axis] = block().value[axis_letter(axis)] * scale_of(axis);
@@ -120,7 +120,7 @@ bool Interpreter::targets_turned() {
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::uint32_t own = letter_bit(axis_letters[axis]);
         if ((block().words & (axis < 2 ? turning : own)) == 0) continue;
-        const double target = next_.incremental ? position_[axis] + by[axis] : to[axis];
+        const double target = next().incremental ? position_[axis] + by[axis] : to[axis];
         const int blamed = (block().words & own) != 0 ? axis : 1 - axis;
         const bool absent = (present_words_ & own) == 0 && target == position_[axis];
         const bool in_plane = offset_contour && axis < 2;
@@ -128,7 +128,7 @@ bool Interpreter::targets_turned() {
         end_[axis] = target;
     }
     // A rounding error must not become a move: in cutter compensation it would have a direction.
-    if (!next_.incremental && std::fabs(end_[0] - position_[0]) < turned_slack &&
+    if (!next().incremental && std::fabs(end_[0] - position_[0]) < turned_slack &&
         std::fabs(end_[1] - position_[1]) < turned_slack) {
         end_[0] = position_[0];
         end_[1] = position_[1];
@@ -141,8 +141,8 @@ bool Interpreter::straight(std::int16_t code) {
     if (!targets(block().has_g(g_nonmodal) && block().g[g_nonmodal] == 530)) return false;
     Move& move = moving_.move;
     move.kind = code == 0 ? MoveKind::rapid : MoveKind::feed;
-    move.path = next_.path;
-    move.tolerance_mm = next_.tolerance_mm;
+    move.path = next().path;
+    move.tolerance_mm = next().tolerance_mm;
     move.line = words_.number();
     move.end = end_;
     move.feed = 0;
@@ -181,37 +181,37 @@ Move& Interpreter::begin_move(MoveKind kind) {
     Move& move = moving_.move;
     move = Move{};
     move.kind = kind;
-    move.path = next_.path;
-    move.tolerance_mm = next_.tolerance_mm;
+    move.path = next().path;
+    move.tolerance_mm = next().tolerance_mm;
     move.line = words_.number();
     move.end = end_;
     return move;
 }
 
 bool Interpreter::feed_of(Move& move) {
-    if (next_.inverse_time) {
-        if (!block().has('F') || next_.feed == 0) return no_feed();
+    if (next().inverse_time) {
+        if (!block().has('F') || next().feed == 0) return no_feed();
         move.feed_mode = FeedMode::inverse_time;
-        move.feed = next_.feed;
+        move.feed = next().feed;
         return true;
     }
-    if (next_.feed == 0) return no_feed();
-    const bool rotary_only = !(off_path_ && next_.cutter == CutterSide::off) && end_[0] == position_[0] &&
+    if (next().feed == 0) return no_feed();
+    const bool rotary_only = !(off_path_ && next().cutter == CutterSide::off) && end_[0] == position_[0] &&
                              end_[1] == position_[1] && end_[2] == position_[2] &&
                              (block().words & rotary_words) != 0 && move.kind == MoveKind::feed;
     move.feed_mode = FeedMode::units_per_second;
-    move.feed = rotary_only ? next_.feed_rotary : next_.feed;
+    move.feed = rotary_only ? next().feed_rotary : next().feed;
     return true;
 }
 
 bool Interpreter::no_feed() {
-    const std::string code = name_of_g(next_.motion);
+    const std::string code = name_of_g(next().motion);
     if (block().has('F')) {
         return words_.fail_word(
             'F', GrblStatus::no_feed,
             fmt::format("{}: {} cannot move at feed 0; write e.g. F600", words_.word_text('F'), code));
     }
-    if (next_.inverse_time) {
+    if (next().inverse_time) {
         return words_.fail_at(
             words_.error_column(), GrblStatus::no_feed,
             fmt::format("F word missing: in G93 every {} line needs its own; write e.g. F2 (the move takes 1/2 minute)",
@@ -220,7 +220,7 @@ bool Interpreter::no_feed() {
     return words_.fail_at(
         words_.error_column(), GrblStatus::no_feed,
         fmt::format("F word missing: {} needs a feed; write e.g. F600 ({}/min) on this line or before it", code,
-                    next_.inch ? "inch" : "mm"));
+                    next().inch ? "inch" : "mm"));
 }
 
 bool Interpreter::exceeds_travel(int axis, double value, std::size_t column) {

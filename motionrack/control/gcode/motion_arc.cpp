@@ -30,7 +30,7 @@ constexpr std::array<const char*, 3> plane_names = {"G17 (XY)", "G18 (XZ)", "G19
 
 bool Interpreter::arc(std::int16_t code) {
     if (!by_itself(code) || !in_turned_plane(code) || !leaves_straight(code) || !targets(false)) return false;
-    const auto& axes = plane_axes[next_.plane];
+    const auto& axes = plane_axes[next().plane];
     const bool counter_clockwise = code == 30;
     double turns = 1;
     if (block().has('P') && (words_.used() & letter_bit('P')) == 0) {
@@ -56,17 +56,17 @@ bool Interpreter::arc(std::int16_t code) {
 
 /// In a rotated work system an arc of G18 or G19 would not lie in a plane of two axes; a cycle would drill on a slant.
 bool Interpreter::in_turned_plane(std::int16_t code) {
-    if (!frame_now().is_rotated || next_.plane == 0) return true;
+    if (!frame_now().is_rotated || next().plane == 0) return true;
     return words_.fail_at(
         words_.error_column(), GrblStatus::unsupported,
         fmt::format("{} in {}: the work system is turned by {:.6g} degrees (G10 L2 R), where arcs and "
                     "cycles are possible in G17 only",
-                    name_of_g(code), plane_names[next_.plane], frame_now().rotation_deg[next_.system]));
+                    name_of_g(code), plane_names[next().plane], frame_now().rotation_deg[next().system]));
 }
 
 /// Computes the centre from R or from I J K.
 bool Interpreter::arc_centre(bool counter_clockwise, PlanePoint& centre) {
-    const auto& axes = plane_axes[next_.plane];
+    const auto& axes = plane_axes[next().plane];
     const PlanePoint start = {position_[axes[0]], position_[axes[1]]};
     const PlanePoint end = {end_[axes[0]], end_[axes[1]]};
     const bool closed =
@@ -82,13 +82,13 @@ bool Interpreter::arc_centre(bool counter_clockwise, PlanePoint& centre) {
 
 bool Interpreter::arc_centre_of_radius(PlanePoint start, PlanePoint end, bool closed, bool counter_clockwise,
                                        PlanePoint& centre) {
-    const auto& axes = plane_axes[next_.plane];
+    const auto& axes = plane_axes[next().plane];
     words_.use(letter_bit('R'));
     const std::uint32_t plane_words = letter_bit(axis_letters[axes[0]]) | letter_bit(axis_letters[axes[1]]);
     if ((block().words & plane_words) == 0) {
         return words_.fail_at(
             words_.error_column(), GrblStatus::no_plane_axis,
-            fmt::format("an arc with R needs an end in its plane, {} ({} or {})", plane_names[next_.plane],
+            fmt::format("an arc with R needs an end in its plane, {} ({} or {})", plane_names[next().plane],
                         axis_letters[std::min(axes[0], axes[1])], axis_letters[std::max(axes[0], axes[1])]));
     }
     if (block()['R'] == 0)
@@ -97,7 +97,7 @@ bool Interpreter::arc_centre_of_radius(PlanePoint start, PlanePoint end, bool cl
         return words_.fail_word(
             'R', GrblStatus::bad_target,
             fmt::format("{}: an arc with R cannot end where it starts; write a full turn with offsets, e.g. {} I10",
-                        words_.word_text('R'), name_of_g(next_.motion)));
+                        words_.word_text('R'), name_of_g(next().motion)));
     }
     const double radius = scaled('R');
     if (centre_from_radius(start, end, radius, counter_clockwise, centre)) return true;
@@ -109,13 +109,13 @@ bool Interpreter::arc_centre_of_radius(PlanePoint start, PlanePoint end, bool cl
 }
 
 bool Interpreter::arc_centre_of_offsets(PlanePoint start, PlanePoint& centre) {
-    const auto& axes = plane_axes[next_.plane];
+    const auto& axes = plane_axes[next().plane];
     const std::array<char, 2> letters = {offset_letters[axes[0]], offset_letters[axes[1]]};
     if (!block().has(letters[0]) && !block().has(letters[1])) {
         return words_.fail_at(
             words_.error_column(), GrblStatus::no_offsets,
-            fmt::format("{} needs the centre ({} {} in {}) or the radius (R)", name_of_g(next_.motion),
-                        std::min(letters[0], letters[1]), std::max(letters[0], letters[1]), plane_names[next_.plane]));
+            fmt::format("{} needs the centre ({} {} in {}) or the radius (R)", name_of_g(next().motion),
+                        std::min(letters[0], letters[1]), std::max(letters[0], letters[1]), plane_names[next().plane]));
     }
     Point words = {};
     std::array<double, 2> middle = {start.first, start.second};
@@ -123,24 +123,24 @@ bool Interpreter::arc_centre_of_offsets(PlanePoint start, PlanePoint& centre) {
         words_.use(letter_bit(letters[i]));
         if (block().has(letters[i])) {
             words[axes[i]] = scaled(letters[i]);
-            middle[i] = scaled(letters[i]) + (next_.arc_absolute ? frame_now().offset[axes[i]] : middle[i]);
-        } else if (next_.arc_absolute) {
+            middle[i] = scaled(letters[i]) + (next().arc_absolute ? frame_now().offset[axes[i]] : middle[i]);
+        } else if (next().arc_absolute) {
             return words_.fail_at(words_.error_column(), GrblStatus::no_offsets,
                                   fmt::format("{} word missing: in G90.1 (absolute centres) {} needs both {} and {}",
-                                              letters[i], name_of_g(next_.motion), std::min(letters[0], letters[1]),
+                                              letters[i], name_of_g(next().motion), std::min(letters[0], letters[1]),
                                               std::max(letters[0], letters[1])));
         }
     }
     centre = {middle[0], middle[1]};
     if (const WorkFrame& frame = frame_now(); frame.is_rotated) {  // G17: the first axis is X, the second is Y
-        const Point by = next_.arc_absolute ? frame.to_machine(words) : frame.rotate(words);
-        centre = next_.arc_absolute ? PlanePoint{by[0], by[1]} : PlanePoint{start.first + by[0], start.second + by[1]};
+        const Point by = next().arc_absolute ? frame.to_machine(words) : frame.rotate(words);
+        centre = next().arc_absolute ? PlanePoint{by[0], by[1]} : PlanePoint{start.first + by[0], start.second + by[1]};
     }
     return true;
 }
 
 bool Interpreter::arc_radii_agree(PlanePoint start, PlanePoint end, PlanePoint centre) {
-    const auto& axes = plane_axes[next_.plane];
+    const auto& axes = plane_axes[next().plane];
     const char letter = block().has(offset_letters[axes[0]]) ? offset_letters[axes[0]] : offset_letters[axes[1]];
     const double radius = length({start.first - centre.first, start.second - centre.second});
     const double end_radius = length({end.first - centre.first, end.second - centre.second});
@@ -161,7 +161,7 @@ bool Interpreter::arc_radii_agree(PlanePoint start, PlanePoint end, PlanePoint c
 }
 
 bool Interpreter::arc_within_limits(PlanePoint start, PlanePoint end, PlanePoint centre, std::int32_t turns) {
-    const auto& axes = plane_axes[next_.plane];
+    const auto& axes = plane_axes[next().plane];
     const PlanePoint from = {start.first - centre.first, start.second - centre.second};
     const PlanePoint to = {end.first - centre.first, end.second - centre.second};
     const double radius = std::max(length(from), length(to));

@@ -20,15 +20,15 @@ bool Interpreter::cutter() {
     const std::size_t column = block().g_column[g_cutter];
     if (code == 400) {
         if (compensating_ && !end_waiting_path()) return false;
-        next_.cutter = CutterSide::off;
+        next().cutter = CutterSide::off;
         return true;
     }
-    if (next_.cutter != CutterSide::off) {
+    if (next().cutter != CutterSide::off) {
         return words_.fail_at(
             column, GrblStatus::unsupported,
             fmt::format("{}: cutter compensation is on already ({} of the contour); write G40 and a straight "
                         "move before it",
-                        name_of_g(code), next_.cutter == CutterSide::left ? "left" : "right"));
+                        name_of_g(code), next().cutter == CutterSide::left ? "left" : "right"));
     }
     if (settings_.point_to_point) {
         return words_.fail_at(
@@ -39,8 +39,8 @@ bool Interpreter::cutter() {
     double diameter = 0;
     if (!cutter_diameter(diameter)) return false;
     const bool left = (code / 10 == 41) == (diameter >= 0);
-    next_.cutter = left ? CutterSide::left : CutterSide::right;
-    next_.cutter_radius_mm = std::fabs(diameter) / 2;
+    next().cutter = left ? CutterSide::left : CutterSide::right;
+    next().cutter_radius_mm = std::fabs(diameter) / 2;
     return true;
 }
 
@@ -66,7 +66,7 @@ bool Interpreter::cutter_diameter(double& diameter) {
         }
         if (block().has('D') && !words_.need_integer('D', 0, largest_tool, "the number of a tool")) return false;
         const bool of_spindle = !block().has('D') || block()['D'] == 0;
-        const std::int32_t number = of_spindle ? next_.tool_loaded : static_cast<std::int32_t>(block()['D']);
+        const std::int32_t number = of_spindle ? next().tool_loaded : static_cast<std::int32_t>(block()['D']);
         if (number <= 0) {
             return words_.fail_at(
                 column, GrblStatus::word_missing,
@@ -89,7 +89,7 @@ bool Interpreter::cutter_allows() {
             column, GrblStatus::axis_conflict,
             fmt::format("{} while cutter compensation is on; write G40 and a straight move before it", what));
     };
-    const bool was_on = modes_.cutter != CutterSide::off;
+    const bool was_on = modes().cutter != CutterSide::off;
     // M72 restores modes, too.
     const auto column_of = [&](GroupG group) -> std::size_t {
         return block().has_g(group)      ? block().g_column[group]
@@ -97,19 +97,19 @@ bool Interpreter::cutter_allows() {
                : block().has_g(g_cutter) ? block().g_column[g_cutter]
                                          : 0;
     };
-    if (was_on && next_.plane != modes_.plane) return forbid(column_of(g_plane), "the plane cannot change");
-    if (was_on && next_.inch != modes_.inch) return forbid(column_of(g_units), "the units cannot change");
-    if (was_on && next_.system != modes_.system) return forbid(column_of(g_system), "the work offset cannot change");
-    if (frame_now().is_rotated && next_.plane != 0) {
+    if (was_on && next().plane != modes().plane) return forbid(column_of(g_plane), "the plane cannot change");
+    if (was_on && next().inch != modes().inch) return forbid(column_of(g_units), "the units cannot change");
+    if (was_on && next().system != modes().system) return forbid(column_of(g_system), "the work offset cannot change");
+    if (frame_now().is_rotated && next().plane != 0) {
         return words_.fail_at(
             column_of(g_cutter), GrblStatus::unsupported,
             fmt::format("the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation "
                         "is possible in G17 only",
-                        frame_now().rotation_deg[next_.system]));
+                        frame_now().rotation_deg[next().system]));
     }
     if (was_on && block().has_g(g_tool_length) && frame_now().tool != frame_.tool)
         return forbid(block().g_column[g_tool_length], "the tool length cannot change");
-    if (next_.inverse_time) {
+    if (next().inverse_time) {
         return forbid(column_of(g_feed_mode), "G93 (inverse time) cannot be used");
     }
     if (was_on && block().has_m(m_tool))
@@ -133,14 +133,14 @@ bool Interpreter::gouges(std::int32_t line) {
         fmt::format("the cutter (radius {:.6g} mm) would have to move backwards along the move of line {}, which is "
                     "too short between its neighbours: it would cut into the contour; take a smaller cutter or "
                     "leave the move out",
-                    modes_.cutter_radius_mm, line));
+                    modes().cutter_radius_mm, line));
 }
 
 /// Computes the offset path of the move from straight() or arc().
 bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) {
     const Move& move = moving_.move;
-    const double radius = next_.cutter_radius_mm;
-    const double offset = next_.cutter == CutterSide::left ? radius : -radius;
+    const double radius = next().cutter_radius_mm;
+    const double offset = next().cutter == CutterSide::left ? radius : -radius;
     const PlanePoint centre = {move.centre_first, move.centre_second};
     const bool is_arc = move.kind == MoveKind::arc;
     if (!compensating_ && length({to.first - from.first, to.second - from.second}) <= radius) {
@@ -170,7 +170,7 @@ bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) 
 /// Converts the programmed move to that of the cutter, which waits until the next one is known.
 bool Interpreter::compensate() {
     Move& move = moving_.move;
-    const auto& axes = plane_axes[next_.plane];
+    const auto& axes = plane_axes[next().plane];
     const PlanePoint from = {position_[axes[0]], position_[axes[1]]};
     const PlanePoint to = {end_[axes[0]], end_[axes[1]]};
     if (move.kind != MoveKind::arc && from.first == to.first && from.second == to.second) {
@@ -209,8 +209,8 @@ bool Interpreter::off_limits() {
 
 /// Joins the waiting move to the move of this line.
 bool Interpreter::join(PlanePoint corner) {
-    const auto& axes = plane_axes[next_.plane];
-    const double offset = next_.cutter == CutterSide::left ? next_.cutter_radius_mm : -next_.cutter_radius_mm;
+    const auto& axes = plane_axes[next().plane];
+    const double offset = next().cutter == CutterSide::left ? next().cutter_radius_mm : -next().cutter_radius_mm;
     const CutterPath& path = cutter_plan_.path;
     const CornerJoinPoint junction = join_corner(cutter_path_, path, corner, offset);
     if (junction.kind == CornerJoin::none) {
@@ -218,7 +218,7 @@ bool Interpreter::join(PlanePoint corner) {
             words_.error_column(), GrblStatus::bad_target,
             fmt::format("the cutter (radius {:.6g} mm) does not fit into the corner between line {} and this one; "
                         "take a smaller cutter",
-                        next_.cutter_radius_mm, cutter_line_));
+                        next().cutter_radius_mm, cutter_line_));
     }
     cutter_plan_.joins = true;
     cutter_plan_.last = cutter_path_;
@@ -250,7 +250,7 @@ bool Interpreter::join(PlanePoint corner) {
 
 /// After G40 the cutter is still on the offset path.
 bool Interpreter::leaves_straight(std::int16_t code) {
-    if (!off_path_ || (compensating_ && next_.cutter != CutterSide::off)) return true;
+    if (!off_path_ || (compensating_ && next().cutter != CutterSide::off)) return true;
     return words_.fail_at(
         words_.error_column(), GrblStatus::bad_target,
         fmt::format("{} after G40: the cutter is still at the offset contour; leave it with a straight move",
@@ -267,7 +267,7 @@ bool Interpreter::end_cutter() {
 /// Refuses a line whose calls would have to wait as well: it has no compensated move and does not end compensation.
 bool Interpreter::may_wait() {
     const bool adds = (todo_ & ~static_cast<std::uint32_t>(todo_comments)) != 0;
-    if (!adds || cutter_plan_.begins || next_.cutter == CutterSide::off || ends_program()) return true;
+    if (!adds || cutter_plan_.begins || next().cutter == CutterSide::off || ends_program()) return true;
     return words_.fail_at(
         0, GrblStatus::unsupported,
         fmt::format(
@@ -278,8 +278,8 @@ bool Interpreter::may_wait() {
 
 /// Applies a valid line: final calls become ready, its own calls wait behind them.
 void Interpreter::commit_cutter() {
-    const auto& axes = plane_axes[modes_.plane];
-    const bool off = modes_.cutter == CutterSide::off;
+    const auto& axes = plane_axes[modes().plane];
+    const bool off = modes().cutter == CutterSide::off;
     const bool ends = end_pending_ || off;
     const bool moved = (todo_ & todo_motion) != 0;
     if (ends && compensating_ && !cutter_plan_.begins) held_.settle(axes[0], axes[1], cutter_plan_.last);
@@ -304,7 +304,7 @@ void Interpreter::commit_cutter() {
 
 /// Completes the waiting calls up to the start of this line's move.
 void Interpreter::settle_junction() {
-    const auto& axes = plane_axes[modes_.plane];
+    const auto& axes = plane_axes[modes().plane];
     if (cutter_plan_.joins) held_.settle(axes[0], axes[1], cutter_plan_.last);
     if (cutter_plan_.around) {
         CanonCall around;
@@ -331,14 +331,14 @@ void Interpreter::resync_position(const Point& position) {
     position_ = position;
     held_.clear();
     compensating_ = off_path_ = false;
-    modes_.cutter = CutterSide::off;
+    modes_.switch_cutter_off();
 }
 
 Outcome<void> Interpreter::finish() {
     todo_ = 0;
     cutter_plan_.clear();
     if (!compensating_) return {};
-    const auto& axes = plane_axes[modes_.plane];
+    const auto& axes = plane_axes[modes().plane];
     if (!end_waiting_path()) {
         held_.settle(axes[0], axes[1], cutter_path_);
         held_.clear();
@@ -347,7 +347,7 @@ Outcome<void> Interpreter::finish() {
     }
     held_.settle(axes[0], axes[1], cutter_plan_.last);
     compensating_ = false;
-    modes_.cutter = CutterSide::off;
+    modes_.switch_cutter_off();
     todo_ = todo_held;
     return {};
 }

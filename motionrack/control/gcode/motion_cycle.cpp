@@ -21,23 +21,23 @@ constexpr std::uint32_t depth_word = letter_bit('Z');
 
 /// Reads the words that the cycle stores from line to line; each must follow the cycle's own G word.
 bool Interpreter::cycle_words(std::int16_t code) {
-    const char depth = axis_letters[plane_axes[next_.plane][2]];
-    if (modes_.motion != code) next_.cycle_words = 0;
+    const char depth = axis_letters[plane_axes[next().plane][2]];
+    if (modes().motion != code) next().cycle_words = 0;
     const auto keep = [&](char letter, std::uint32_t mark, double& kept, double value) {
         if (!block().has(letter) || (words_.used() & letter_bit(letter) & ~axis_words) != 0) return;
         kept = value;
-        next_.cycle_words |= mark;
+        next().cycle_words |= mark;
         words_.use(letter_bit(letter));
     };
-    if (block().has('R')) keep('R', letter_bit('R'), next_.cycle_r, scaled('R'));
-    if (block().has(depth)) keep(depth, depth_word, next_.cycle_z, scaled(depth));
+    if (block().has('R')) keep('R', letter_bit('R'), next().cycle_r, scaled('R'));
+    if (block().has(depth)) keep(depth, depth_word, next().cycle_z, scaled(depth));
     const bool taps = code == 740 || code == 840, waits = code == 820 || code == 860 || code == 890;
-    if (taps && next_.cycle_words == 0) next_.cycle_p = 0;
-    if ((waits || taps) && block().has('P')) keep('P', letter_bit('P'), next_.cycle_p, block()['P']);
-    if (is_pecking(code) && block().has('Q')) keep('Q', letter_bit('Q'), next_.cycle_q, scaled('Q'));
+    if (taps && next().cycle_words == 0) next().cycle_p = 0;
+    if ((waits || taps) && block().has('P')) keep('P', letter_bit('P'), next().cycle_p, block()['P']);
+    if (is_pecking(code) && block().has('Q')) keep('Q', letter_bit('Q'), next().cycle_q, scaled('Q'));
     const std::uint32_t needed =
         letter_bit('R') | depth_word | (waits ? letter_bit('P') : 0) | (is_pecking(code) ? letter_bit('Q') : 0);
-    const std::uint32_t missing = needed & ~next_.cycle_words;
+    const std::uint32_t missing = needed & ~next().cycle_words;
     if (missing == 0) return true;
     const bool no_depth = (missing & depth_word) != 0;
     const char letter = no_depth ? depth : static_cast<char>('A' + std::countr_zero(missing));
@@ -52,9 +52,9 @@ bool Interpreter::cycle_words(std::int16_t code) {
 /// Tapping reverses the spindle at the bottom (the tap floats in its chuck), G86 stops it: it must turn, and for
 /// tapping in the correct direction.
 bool Interpreter::spindle_turns(std::int16_t code) {
-    const Spindle needed = code == 740 ? Spindle::counter_clockwise : code == 840 ? Spindle::clockwise : next_.spindle;
+    const Spindle needed = code == 740 ? Spindle::counter_clockwise : code == 840 ? Spindle::clockwise : next().spindle;
     if (code != 740 && code != 840 && code != 860) return true;
-    if (next_.spindle != Spindle::off && next_.spindle == needed) return true;
+    if (next().spindle != Spindle::off && next().spindle == needed) return true;
     return words_.fail_at(words_.error_column(), GrblStatus::unsupported,
                           fmt::format("{} needs the spindle turning{}; write e.g. S500 {} before it", name_of_g(code),
                                       code == 740   ? " counter-clockwise"
@@ -76,7 +76,7 @@ bool Interpreter::pecks_go(const DrillCycle& plan) {
 }
 
 bool Interpreter::cycle(std::int16_t code) {
-    if (next_.cutter != CutterSide::off) {
+    if (next().cutter != CutterSide::off) {
         return words_.fail_at(
             words_.error_column(), GrblStatus::axis_conflict,
             fmt::format("{} cannot drill while cutter compensation is on; write G40 and a straight move before it",
@@ -89,12 +89,12 @@ bool Interpreter::cycle(std::int16_t code) {
                                 fmt::format("{}: a drilling cycle does not turn axes; put the turn on a line before it",
                                             words_.word_text(letter)));
     }
-    if (next_.inverse_time) {
+    if (next().inverse_time) {
         return words_.fail_at(
             words_.error_column(), GrblStatus::no_feed,
             fmt::format("{} cannot be done in G93 (inverse time); write G94 and a feed before it", name_of_g(code)));
     }
-    const auto& axes = plane_axes[next_.plane];
+    const auto& axes = plane_axes[next().plane];
     const int third = axes[2];
     const char depth_letter = axis_letters[third];
     if (!in_turned_plane(code) || !spindle_turns(code) || !cycle_words(code)) return false;
@@ -105,34 +105,34 @@ bool Interpreter::cycle(std::int16_t code) {
         words_.use(letter_bit('L'));
     }
     plan.code = code;
-    plan.spindle = next_.spindle;
-    plan.speed_rpm = next_.speed_rpm;
+    plan.spindle = next().spindle;
+    plan.speed_rpm = next().speed_rpm;
     plan.first = axes[0];
     plan.second = axes[1];
     plan.third = axes[2];
     plan.from = position_;
     plan.level = position_[third];
     const double offset = frame_now().offset[third];
-    const bool goes_on = is_cycle(modes_.motion) && modes_.plane == next_.plane;
-    if (!goes_on) next_.cycle_level = plan.level;
-    plan.r = next_.incremental ? next_.cycle_level + next_.cycle_r : next_.cycle_r + offset;
-    plan.bottom = next_.incremental ? plan.r + next_.cycle_z : next_.cycle_z + offset;
+    const bool goes_on = is_cycle(modes().motion) && modes().plane == next().plane;
+    if (!goes_on) next().cycle_level = plan.level;
+    plan.r = next().incremental ? next().cycle_level + next().cycle_r : next().cycle_r + offset;
+    plan.bottom = next().incremental ? plan.r + next().cycle_z : next().cycle_z + offset;
     if (plan.r < plan.bottom) {
         return words_.fail_at(
             block().has('R') ? block().column[letter_index('R')] : words_.error_column(), GrblStatus::bad_target,
             fmt::format("R is at {} = {:.6g} mm, below the bottom of the hole at {:.6g} mm; R must be above it",
                         depth_letter, plan.r - offset, plan.bottom - offset));
     }
-    plan.clear = next_.retract_to_r ? plan.r : std::max(plan.r, next_.cycle_level);
-    plan.peck = next_.cycle_q;
+    plan.clear = next().retract_to_r ? plan.r : std::max(plan.r, next().cycle_level);
+    plan.peck = next().cycle_q;
     plan.clearance = settings_.peck_clearance_mm;
-    plan.seconds = next_.cycle_p;
+    plan.seconds = next().cycle_p;
     if (!pecks_go(plan)) return false;
     plan.pattern.path = PathControl::exact_path;
     plan.pattern.line = words_.number();
     plan.pattern.kind = MoveKind::feed;
-    if (next_.feed == 0) return no_feed();
-    plan.pattern.feed = next_.feed;
+    if (next().feed == 0) return no_feed();
+    plan.pattern.feed = next().feed;
     if (!cycle_within_limits(plan)) return false;
     cycle_.begin(plan);
     moving_.line = words_.number();
@@ -158,14 +158,14 @@ bool Interpreter::cycle_within_limits(DrillCycle& plan) {
 /// Computes the first hole and the steps in a rotated work system, G17.
 bool Interpreter::cycle_places_turned(DrillCycle& plan) {
     const WorkFrame& frame = frame_now();
-    Point words = next_.incremental ? Point{} : frame.to_program(position_);
+    Point words = next().incremental ? Point{} : frame.to_program(position_);
     for (int axis = 0; axis < 2; ++axis)
         if (block().has(axis_letters[axis])) words[axis] = scaled(axis_letters[axis]);
     const Point by = frame.rotate(words), to = frame.to_machine(words);
     for (int axis = 0; axis < 2; ++axis) {
         double& step = axis == 0 ? plan.step_first : plan.step_second;
-        step = next_.incremental ? by[axis] : 0;
-        if (!next_.incremental) plan.pattern.end[axis] = to[axis];
+        step = next().incremental ? by[axis] : 0;
+        if (!next().incremental) plan.pattern.end[axis] = to[axis];
         end_[axis] = plan.pattern.end[axis] + plan.repeats * step;
         if (!reach(axis, plan.pattern.end[axis] + step, words_.error_column()) ||
             !reach(axis, end_[axis], words_.error_column()))
@@ -181,7 +181,7 @@ bool Interpreter::cycle_places(DrillCycle& plan) {
         const double value = scaled(letter);
         double& step = axis == plan.first ? plan.step_first : plan.step_second;
         const std::size_t column = block().column[letter_index(letter)];
-        if (next_.incremental)
+        if (next().incremental)
             step = value;
         else
             plan.pattern.end[axis] = value + frame_now().offset[axis];

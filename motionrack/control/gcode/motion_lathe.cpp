@@ -24,13 +24,13 @@ bool Interpreter::turning(std::int16_t code) {
     if (!turning_allowed(code) || !turning_words(code, plan)) return false;
     words_.use(axis_words);
     const Point stays = end_;
-    const bool incremental = std::exchange(next_.incremental, false);  // X and Z are absolute in G91 too
+    const bool incremental = std::exchange(next().incremental, false);  // X and Z are absolute in G91 too
     if ((block().words & axis_words) != 0 && !targets(false)) return false;
-    next_.incremental = incremental;
+    next().incremental = incremental;
     plan.start = {end_[2], end_[0]};
     end_ = stays;
     if (!feed_of(begin_move(MoveKind::feed))) return false;
-    next_.motion = no_motion;
+    next().motion = no_motion;
     turning_ = plan;
     return true;
 }
@@ -48,15 +48,15 @@ bool Interpreter::turning_allowed(std::int16_t code) {
     if (block().has_m(m_stop) || block().has_m(m_io))
         return refuse(GrblStatus::unsupported,
                       " must not share a line with a stop, an end or an output; put that on a separate line");
-    if (next_.plane != 1)
+    if (next().plane != 1)
         return refuse(GrblStatus::no_plane_axis, " turns in the plane of X and Z; write G18 before it");
     if (settings_.point_to_point)
         return refuse(GrblStatus::unsupported,
                       " moves two axes together, but the axes of this rack position one by one");
-    if (next_.cutter != CutterSide::off)
+    if (next().cutter != CutterSide::off)
         return refuse(GrblStatus::axis_conflict,
                       " cannot be done while cutter compensation is on; write G40 and a straight move before it");
-    if (next_.inverse_time)
+    if (next().inverse_time)
         return refuse(GrblStatus::no_feed, " cannot be done in G93 (inverse time); write G94 and a feed before it");
     if (!leaves_straight(code) || !in_turned_plane(code)) return false;
     for (const char letter : {'Y', 'A', 'B', 'C'}) {
@@ -93,7 +93,7 @@ bool Interpreter::turning_words(std::int16_t code, LatheCycle& plan) {
         return true;
     }
     words_.use(letter_bit('I') | letter_bit('R'));
-    const double unit = next_.inch ? 25.4 : 1;
+    const double unit = next().inch ? 25.4 : 1;
     plan.depth = block().has('I') ? scaled('I') : unit;
     plan.retract = block().has('R') ? scaled('R') : 0.5 * unit;
     if (plan.depth >= min_depth) return true;

@@ -17,11 +17,11 @@ bool Interpreter::may_probe(std::int16_t code) {
             " probes, but this machine has no probe input; take the probing out of the program and set the work "
             "offset with G10 L20 instead");
     }
-    if (next_.cutter != CutterSide::off)
+    if (next().cutter != CutterSide::off)
         return refuse(GrblStatus::axis_conflict,
                       " cannot probe while cutter compensation is on; write G40 and a straight move before it");
     if (!leaves_straight(code)) return false;
-    if (next_.inverse_time)
+    if (next().inverse_time)
         return refuse(GrblStatus::no_feed, " cannot be done in G93 (inverse time); write G94 and a feed before it");
     return true;
 }
@@ -47,7 +47,7 @@ void Interpreter::store_probe_result(bool hit, const Point& at) {
     constexpr int first = 5061, success = 5070;
     const Point place = frame_.to_program(at);
     for (int axis = 0; axis < axis_count; ++axis)
-        parameters_.set(first + axis, place[axis] / (axis < 3 && modes_.inch ? 25.4 : 1.0));
+        parameters_.set(first + axis, place[axis] / (axis < 3 && modes().inch ? 25.4 : 1.0));
     for (int other = first + axis_count; other < success; ++other) parameters_.set(other, 0);
     parameters_.set(success, hit ? 1 : 0);
 }

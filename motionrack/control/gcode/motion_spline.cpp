@@ -42,12 +42,12 @@ bool Interpreter::spline_allowed(std::int16_t code) {
     if (settings_.point_to_point)
         return refuse(GrblStatus::unsupported,
                       " is a curve, but the axes of this rack position one by one; write straight moves");
-    if (next_.cutter != CutterSide::off)
+    if (next().cutter != CutterSide::off)
         return refuse(GrblStatus::axis_conflict,
                       " is not possible while cutter compensation is on; write G40 and a straight move before it");
     if (!leaves_straight(code)) return false;
-    if (next_.plane != 0) return refuse(GrblStatus::no_plane_axis, " is a curve in X and Y; write G17 before it");
-    if (next_.inverse_time)
+    if (next().plane != 0) return refuse(GrblStatus::no_plane_axis, " is a curve in X and Y; write G17 before it");
+    if (next().inverse_time)
         return refuse(GrblStatus::no_feed, " cannot be done in G93 (inverse time); write G94 and a feed before it");
     constexpr std::uint32_t in_plane = letter_bit('X') | letter_bit('Y');
     if ((block().words & in_plane) == 0) {
@@ -79,10 +79,10 @@ bool Interpreter::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& 
                 "{} word missing: G5 takes both I and J, or neither to continue in the direction of the G5 before it",
                 missing));
     }
-    PlanePoint handle = {-modes_.spline_end.first,
-                         -modes_.spline_end.second};  // as written: not rotated with the work system
+    PlanePoint handle = {-modes().spline_end.first,
+                         -modes().spline_end.second};  // as written: not rotated with the work system
     const bool goes_on =
-        modes_.motion == 50 && modes_.spline_at.first == start.first && modes_.spline_at.second == start.second;
+        modes().motion == 50 && modes().spline_at.first == start.first && modes().spline_at.second == start.second;
     if (block().has('I')) {
         handle = {scaled('I'), scaled('J')};
     } else if (!goes_on) {
@@ -97,8 +97,8 @@ bool Interpreter::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& 
     handle = turned_handle(handle);
     curve.points = {start, PlanePoint{start.first + handle.first, start.second + handle.second},
                     PlanePoint{end.first + back.first, end.second + back.second}, end};
-    next_.spline_end = written_back;
-    next_.spline_at = end;
+    next().spline_end = written_back;
+    next().spline_at = end;
     return true;
 }
 
@@ -124,7 +124,7 @@ PlanePoint Interpreter::turned_handle(PlanePoint handle) const {
 
 /// P and Q may be negative if they are distances, not a time, a tolerance or a depth.
 bool Interpreter::negative_handles() const {
-    const std::int16_t code = block().has_g(g_motion) ? block().g[g_motion] : modes_.motion;
+    const std::int16_t code = block().has_g(g_motion) ? block().g[g_motion] : modes().motion;
     return code == 50 && !block().has_g(g_nonmodal) && !block().has_g(g_path) && !block().has_m(m_tool) &&
            !block().has_m(m_override);
 }

@@ -28,19 +28,19 @@ bool Interpreter::nonmodal() {
         case 921: {
             WorkFrame& frame = edit_frame();
             frame.g92 = frame.g92_saved = Point{};
-            frame.activate(next_.system);
+            frame.activate(next().system);
             break;
         }
         case 922: {
             WorkFrame& frame = edit_frame();
             frame.g92 = Point{};
-            frame.activate(next_.system);
+            frame.activate(next().system);
             break;
         }
         case 923: {
             WorkFrame& frame = edit_frame();
             frame.g92 = frame.g92_saved;
-            frame.activate(next_.system);
+            frame.activate(next().system);
             break;
         }
         default:
@@ -75,7 +75,7 @@ bool Interpreter::shift() {
     WorkFrame& frame = edit_frame();
     const Point shifted_before = frame.g92;
     frame.g92 = {};
-    frame.activate(next_.system);
+    frame.activate(next().system);
     const Point unshifted = frame.to_program(position_);
     frame.g92 = shifted_before;
     for (int axis = 0; axis < axis_count; ++axis) {
@@ -83,7 +83,7 @@ bool Interpreter::shift() {
         frame.g92[axis] = unshifted[axis] - block().value[axis_letter(axis)] * scale_of(axis);
     }
     frame.g92_saved = frame.g92;
-    frame.activate(next_.system);
+    frame.activate(next().system);
     words_.take_axis_words();
     return true;
 }

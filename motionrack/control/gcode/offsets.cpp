@@ -41,7 +41,7 @@ bool Interpreter::set_offsets() {
     }
     words_.use(letter_bit('L') | letter_bit('P'));
     const int number = static_cast<int>(block()['P']);
-    return set_work_offset(number == 0 ? next_.system : number - 1, block()['L'] == 20);
+    return set_work_offset(number == 0 ? next().system : number - 1, block()['L'] == 20);
 }
 
 bool Interpreter::set_work_offset(int system, bool from_position) {
@@ -66,7 +66,7 @@ bool Interpreter::set_work_offset(int system, bool from_position) {
             frame.work[place][axis] = from_position ? position_[axis] - others - value : value;
         }
     }
-    frame.activate(next_.system);
+    frame.activate(next().system);
     words_.take_axis_words();
     return true;
 }
@@ -112,7 +112,7 @@ bool Interpreter::edit_tool(int what) {
         WorkFrame with = frame_now();
         with.tool = tool.offset;
         if (what == 11) with.g92 = {};
-        with.activate(what == 11 ? work_offset_count - 1 : next_.system);
+        with.activate(what == 11 ? work_offset_count - 1 : next().system);
         const Point by = shift_to_words(with);
         for (int axis = 0; axis < axis_count; ++axis) tool.offset[axis] += by[axis];
     }
@@ -146,7 +146,7 @@ bool Interpreter::tool_length() {
     if (code == 490) {
         WorkFrame& frame = edit_frame();
         frame.tool = {};
-        frame.activate(next_.system);
+        frame.activate(next().system);
         return true;
     }
     if (code == 431) return tool_length_of_words(false);
@@ -177,7 +177,7 @@ bool Interpreter::tool_length_of_words(bool adds) {
         const double value = block().value[axis_letter(axis)] * scale_of(axis);
         frame.tool[axis] = adds ? frame.tool[axis] + value : value;
     }
-    frame.activate(next_.system);
+    frame.activate(next().system);
     words_.take_axis_words();
     return true;
 }
@@ -198,7 +198,7 @@ const Tool* Interpreter::tool_of_table(std::int32_t number, char letter, GroupG 
 /// G43 and G43.2 with the lengths of the table; G43 without H, or with H0, selects the tool in the spindle.
 bool Interpreter::tool_length_of_table(bool adds) {
     const std::size_t column = block().g_column[g_tool_length];
-    std::int32_t number = std::max(0, next_.tool_loaded);
+    std::int32_t number = std::max(0, next().tool_loaded);
     if (block().has('H')) {
         if (!words_.need_integer('H', 0, largest_tool, "a tool number")) return false;
         words_.use(letter_bit('H'));
@@ -217,7 +217,7 @@ bool Interpreter::tool_length_of_table(bool adds) {
     const Point length = tool ? tool->offset : Point{};
     for (int axis = 0; axis < axis_count; ++axis)
         frame.tool[axis] = adds ? frame.tool[axis] + length[axis] : length[axis];
-    frame.activate(next_.system);
+    frame.activate(next().system);
     return true;
 }
 
