@@ -27,11 +27,7 @@ Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
         if (limits.present) present_words_ |= letter_bit(axis_letters[axis]);
     }
     modes_.start(settings.path_tolerance_mm, settings.start_in_g0);
-    frame_.work = settings.work_offsets;
-    frame_.g28 = settings.g28;
-    frame_.g30 = settings.g30;
-    frame_.activate(0);
-    tools_ = settings.tools;
+    offsets_.start(settings);
     position_ = settings.start;
 }
 
@@ -51,9 +47,8 @@ Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Lang
 
 bool Interpreter::evaluate() {
     modes_.begin_line();
-    frame_edited_ = false;
+    offsets_.begin_line();
     cutter_plan_.clear();
-    tool_edited_.reset();
     turning_.reset();
     words_.begin_interpretation();
     end_ = position_;
@@ -76,7 +71,6 @@ bool Interpreter::evaluate() {
     }
     if (!block().assignments.empty() && !assign()) return false;
     if (!block().comments.empty()) show_values();
-    if (tool_edited_) tools_.put(*tool_edited_);
     if (block().has_m(m_state)) modes_.save(block().m[m_state], static_cast<std::size_t>(parameters_.level()));
     if (block().has_m(m_io) && block().m[m_io] == 66) parameters_.set(input_parameter, port_value_);
     commit();
@@ -193,7 +187,7 @@ void Interpreter::commit() {
     moving_.overridable = next().feed_override;
     position_ = end_;
     modes_.commit();
-    if (frame_edited_) frame_ = next_frame_;
+    offsets_.commit();
     if (modes().cutter != CutterSide::off || off_path_) commit_cutter();
     if ((todo_ & todo_motion) != 0 && moving_.probe != Probe::none) store_probe_result(true, position_);
 }
@@ -302,14 +296,8 @@ const CanonCall* Interpreter::pull_comment() {
     return &event_;
 }
 
-WorkFrame& Interpreter::edit_frame() {
-    if (!frame_edited_) next_frame_ = frame_;
-    frame_edited_ = true;
-    return next_frame_;
-}
-
 Point Interpreter::program_position() const {
-    return frame_.to_program(position());
+    return frame().to_program(position());
 }
 
 }  // namespace motionrack::control::gcode

@@ -38,8 +38,8 @@
 #include <motionrack/control/gcode/lathe_cycle.hpp>
 #include <motionrack/control/gcode/line_words.hpp>
 #include <motionrack/control/gcode/modal_state.hpp>
+#include <motionrack/control/gcode/offsets.hpp>
 #include <motionrack/control/gcode/settings.hpp>
-#include <motionrack/control/gcode/work_frame.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -98,11 +98,11 @@ class Interpreter {
     /// Sets the coolant state after manual switching.
     void set_coolant(bool mist, bool flood) { modes_.set_coolant(mist, flood); }
     const ModalState& modes() const { return modes_.now(); }
-    const WorkFrame& frame() const { return frame_; }
+    const WorkFrame& frame() const { return offsets_.frame(); }
     const Block& block() const { return words_.block(); }  ///< words of the last line
     const Parameters& parameters() const { return parameters_; }
     Parameters& parameters() { return parameters_; }
-    const ToolTable& tools() const { return tools_; }
+    const ToolTable& tools() const { return offsets_.tools(); }
     /// Ends a subprogram: drops its parameters and restores the modes that M73 saved. Returns false, with unchanged
     /// modes, if active cutter compensation prevents it.
     bool end_call(std::optional<double> returned);
@@ -241,8 +241,8 @@ class Interpreter {
     double scaled(char letter) const { return next().inch ? block()[letter] * 25.4 : block()[letter]; }
     ModalState& next() { return modes_.next(); }
     const ModalState& next() const { return modes_.next(); }
-    WorkFrame& edit_frame();
-    const WorkFrame& frame_now() const { return frame_edited_ ? next_frame_ : frame_; }
+    WorkFrame& edit_frame() { return offsets_.edit_frame(); }
+    const WorkFrame& frame_now() const { return offsets_.next_frame(); }
     static std::size_t axis_letter(int axis) { return static_cast<std::size_t>(letter_index(axis_letters[axis])); }
 
     Settings settings_;
@@ -252,16 +252,12 @@ class Interpreter {
     std::uint32_t present_words_ = 0;
 
     Modes modes_;
-    WorkFrame frame_;
+    Offsets offsets_;
     Point position_ = {};
     Parameters parameters_;
-    ToolTable tools_;
 
     // Changes by the current line, applied when it is valid.
-    WorkFrame next_frame_;
-    bool frame_edited_ = false;
     Point end_ = {};
-    std::optional<Tool> tool_edited_;  ///< by G10 L1, L10, L11
 
     // Cutter compensation: the waiting move, and the effect of the current line on it.
     CompensationQueue held_;

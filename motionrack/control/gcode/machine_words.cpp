@@ -50,7 +50,7 @@ bool Interpreter::apply_machine_words() {
 void Interpreter::apply_end() {
     end_pending_ = false;
     modes_.end_program();
-    frame_.activate(modes().system);
+    offsets_.activate(modes().system);
 }
 
 /// M48 .. M53. The machine has no spindle override or feed stop switch: their state is stored and reported.
@@ -124,7 +124,7 @@ bool Interpreter::set_tool() {
 
 /// Without a tool table every number is valid.
 bool Interpreter::require_tool(char letter, std::int32_t number) {
-    if (number == 0 || settings_.tools.empty() || tools_.find(number)) return true;
+    if (number == 0 || settings_.tools.empty() || tools().find(number)) return true;
     return words_.fail_word(
         letter, GrblStatus::unsupported,
         fmt::format("{}: the tool table has no tool {}; write it into the table", words_.word_text(letter), number));
@@ -133,7 +133,7 @@ bool Interpreter::require_tool(char letter, std::int32_t number) {
 /// Restores modes that M70 or M73 saved.
 void Interpreter::restore(const ModalState& saved) {
     modes_.restore(saved);
-    if (next().system != modes().system || frame_edited_) edit_frame().activate(next().system);
+    if (next().system != modes().system || offsets_.is_frame_edited()) edit_frame().activate(next().system);
 }
 
 bool Interpreter::end_call(std::optional<double> returned) {
@@ -143,17 +143,16 @@ bool Interpreter::end_call(std::optional<double> returned) {
     if (!kept) return true;
     if (modes().cutter != CutterSide::off && !modes_.can_stay_beside(*kept)) return false;
     modes_.begin_line();
-    frame_edited_ = false;
+    offsets_.begin_line();
     restore(*kept);
     modes_.commit();
-    if (frame_edited_) frame_ = next_frame_;
+    offsets_.commit();
     return true;
 }
 
 void Interpreter::reset_after_program() {
     modes_.enable_overrides();
-    frame_.rotation_deg = {};
-    frame_.activate(modes().system);
+    offsets_.reset_rotation(modes().system);
 }
 
 }  // namespace motionrack::control::gcode

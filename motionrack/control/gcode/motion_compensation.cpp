@@ -57,7 +57,7 @@ bool Interpreter::cutter_diameter(double& diameter) {
         }
         diameter = scaled('D');
     } else {
-        if (tools_.empty()) {
+        if (tools().empty()) {
             return words_.fail_at(
                 column, GrblStatus::unsupported,
                 fmt::format("{0}: the program has no tool table to take the diameter from; give the program one "
@@ -107,7 +107,7 @@ bool Interpreter::cutter_allows() {
                         "is possible in G17 only",
                         frame_now().rotation_deg[next().system]));
     }
-    if (was_on && block().has_g(g_tool_length) && frame_now().tool != frame_.tool)
+    if (was_on && block().has_g(g_tool_length) && frame_now().tool != frame().tool)
         return forbid(block().g_column[g_tool_length], "the tool length cannot change");
     if (next().inverse_time) {
         return forbid(column_of(g_feed_mode), "G93 (inverse time) cannot be used");

@@ -45,7 +45,7 @@ bool Interpreter::probing(std::int16_t code) {
 /// Stores #5061 .. #5066 in the coordinates and units of the probing line, and #5070.
 void Interpreter::store_probe_result(bool hit, const Point& at) {
     constexpr int first = 5061, success = 5070;
-    const Point place = frame_.to_program(at);
+    const Point place = frame().to_program(at);
     for (int axis = 0; axis < axis_count; ++axis)
         parameters_.set(first + axis, place[axis] / (axis < 3 && modes().inch ? 25.4 : 1.0));
     for (int other = first + axis_count; other < success; ++other) parameters_.set(other, 0);
@@ -53,8 +53,7 @@ void Interpreter::store_probe_result(bool hit, const Point& at) {
 }
 
 void Interpreter::set_probe_result(bool hit, const Point& at, const Point& stopped_at) {
-    frame_.probe = at;
-    frame_.probe_hit = hit;
+    offsets_.set_probe_result(hit, at);
     store_probe_result(hit, at);
     resync_position(stopped_at);
 }
