@@ -19,16 +19,9 @@ constexpr int input_parameter = 5399;
 }  // namespace
 
 Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
-    constexpr double nowhere = 4e9;
-    for (int axis = 0; axis < axis_count; ++axis) {
-        const AxisLimits& limits = settings.limits[axis];
-        low_[axis] = limits.present ? limits.min_position - limit_slack : nowhere;
-        high_[axis] = limits.present ? limits.max_position + limit_slack : -nowhere;
-        if (limits.present) present_words_ |= letter_bit(axis_letters[axis]);
-    }
+    travel_.start(settings);
     modes_.start(settings.path_tolerance_mm, settings.start_in_g0);
     offsets_.start(settings);
-    position_ = settings.start;
 }
 
 Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Language language) {
@@ -51,7 +44,7 @@ bool Interpreter::evaluate() {
     cutter_plan_.clear();
     turning_.reset();
     words_.begin_interpretation();
-    end_ = position_;
+    travel_.begin_line();
     if (!check_values()) return false;
     if (block().has_m(m_program) && !program_words()) return false;
     if ((block().m_groups | (block().words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words())
@@ -109,11 +102,11 @@ bool Interpreter::check_values() {
         return words_.fail_word(letter, GrblStatus::negative_value,
                                 fmt::format("{} is negative; {} must be 0 or more", words_.word_text(letter), letter));
     }
-    if (const std::uint32_t absent = block().words & axis_words & ~present_words_; absent != 0) {
+    if (const std::uint32_t absent = block().words & axis_words & ~travel_.present_words(); absent != 0) {
         const char letter = static_cast<char>('A' + std::countr_zero(absent));
         std::string present;
         for (const char axis : axis_letters) {
-            if ((present_words_ & letter_bit(axis)) != 0)
+            if ((travel_.present_words() & letter_bit(axis)) != 0)
                 present += present.empty() ? std::string(1, axis) : fmt::format(" {}", axis);
         }
         return words_.fail_word(
@@ -185,11 +178,11 @@ void Interpreter::commit() {
     if ((todo_ & (todo_dwell | todo_wait)) != 0) dwell_at_ = position();
     end_pending_ = ends_program();
     moving_.overridable = next().feed_override;
-    position_ = end_;
+    travel_.commit();
     modes_.commit();
     offsets_.commit();
     if (modes().cutter != CutterSide::off || off_path_) commit_cutter();
-    if ((todo_ & todo_motion) != 0 && moving_.probe != Probe::none) store_probe_result(true, position_);
+    if ((todo_ & todo_motion) != 0 && moving_.probe != Probe::none) store_probe_result(true, travel_.position());
 }
 
 const CanonCall* Interpreter::pull_next() {
@@ -270,7 +263,7 @@ const CanonCall* Interpreter::pull_motion() {
         return &moving_;
     }
     if (motion_ == Motion::via_point) {
-        moving_.move.end = via_point_pending_ ? position_ : via_;
+        moving_.move.end = via_point_pending_ ? travel_.position() : via_;
         if (via_point_pending_) todo_ &= ~static_cast<std::uint32_t>(todo_motion);
         via_point_pending_ = true;
         return &moving_;

@@ -40,11 +40,9 @@
 #include <motionrack/control/gcode/modal_state.hpp>
 #include <motionrack/control/gcode/offsets.hpp>
 #include <motionrack/control/gcode/settings.hpp>
+#include <motionrack/control/gcode/travel.hpp>
 
 namespace motionrack::control::gcode {
-
-/// Positions may exceed a limit by this much (mm or degrees): the rounding error of sums.
-inline constexpr double limit_slack = 1e-6;
 
 /// Effect of a line on the move that waits before it, and the move that waits after it.
 struct CompensationPlan {
@@ -85,7 +83,7 @@ class Interpreter {
 
     /// Returns the machine coordinates after the last line; with cutter compensation, the cutter centre if it stops
     /// here.
-    const Point& position() const { return off_path_ ? at_ : position_; }
+    const Point& position() const { return off_path_ ? at_ : travel_.position(); }
     Point program_position() const;                               ///< in the active work system, mm and degrees
     std::int32_t line_number() const { return words_.number(); }  ///< number of the last line
     /// Stores the result of the probing move of the last line (CanonCall::probe): the edge `at`, valid if `hit`, and
@@ -227,7 +225,7 @@ class Interpreter {
     Move& begin_move(MoveKind kind);
     bool feed_of(Move& move);
     bool reach(int axis, double value, std::size_t column) {
-        return (value >= low_[axis] && value <= high_[axis]) || exceeds_travel(axis, value, column);
+        return travel_.contains(axis, value) || exceeds_travel(axis, value, column);
     }
     bool exceeds_travel(int axis, double value, std::size_t column);
     bool no_feed();
@@ -247,23 +245,16 @@ class Interpreter {
 
     Settings settings_;
     LineWords words_;
-    Point low_ = {};
-    Point high_ = {};
-    std::uint32_t present_words_ = 0;
-
     Modes modes_;
     Offsets offsets_;
-    Point position_ = {};
+    Travel travel_;
     Parameters parameters_;
-
-    // Changes by the current line, applied when it is valid.
-    Point end_ = {};
 
     // Cutter compensation: the waiting move, and the effect of the current line on it.
     CompensationQueue held_;
     bool has_waited_ = false;
     bool compensating_ = false;  // a move waits in held_; from the first compensated move to G40
-    bool off_path_ = false;      // the machine is at at_, not at position_
+    bool off_path_ = false;      // the machine is at at_, not at the programmed position
     Point at_ = {};
     CutterPath cutter_path_;
     PlanePoint cutter_from_;

@@ -99,10 +99,10 @@ bool Interpreter::targets(bool machine_coordinates) {
         if ((block().words >> index & 1) == 0) continue;
         const double value = block().value[index] * scale_of(axis);
         const double target = machine_coordinates  ? value
-                              : next().incremental ? position_[axis] + value
+                              : next().incremental ? travel_.position()[axis] + value
                                                    : value + offset[axis];
         if (!(offset_contour && axis < 3 && axis != third) && !reach(axis, target, block().column[index])) return false;
-        end_[axis] = target;
+        travel_.end()[axis] = target;
     }
     return offset_contour || !off_path_ || reaches_contour();
 }
@@ -112,7 +112,7 @@ bool Interpreter::targets_turned() {
     const WorkFrame& frame = frame_now();
     const bool offset_contour = compensates();
     const std::uint32_t turning = letter_bit('X') | letter_bit('Y');
-    Point program = next().incremental ? Point{} : frame.to_program(position_);
+    Point program = next().incremental ? Point{} : frame.to_program(travel_.position());
     for (int axis = 0; axis < axis_count; ++axis)
         if ((block().words & letter_bit(axis_letters[axis])) != 0)
             program[axis] = block().value[axis_letter(axis)] * scale_of(axis);
@@ -120,18 +120,18 @@ bool Interpreter::targets_turned() {
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::uint32_t own = letter_bit(axis_letters[axis]);
         if ((block().words & (axis < 2 ? turning : own)) == 0) continue;
-        const double target = next().incremental ? position_[axis] + by[axis] : to[axis];
+        const double target = next().incremental ? travel_.position()[axis] + by[axis] : to[axis];
         const int blamed = (block().words & own) != 0 ? axis : 1 - axis;
-        const bool absent = (present_words_ & own) == 0 && target == position_[axis];
+        const bool absent = (travel_.present_words() & own) == 0 && target == travel_.position()[axis];
         const bool in_plane = offset_contour && axis < 2;
         if (!absent && !in_plane && !reach(axis, target, block().column[axis_letter(blamed)])) return false;
-        end_[axis] = target;
+        travel_.end()[axis] = target;
     }
     // A rounding error must not become a move: in cutter compensation it would have a direction.
-    if (!next().incremental && std::fabs(end_[0] - position_[0]) < turned_slack &&
-        std::fabs(end_[1] - position_[1]) < turned_slack) {
-        end_[0] = position_[0];
-        end_[1] = position_[1];
+    if (!next().incremental && std::fabs(travel_.end()[0] - travel_.position()[0]) < turned_slack &&
+        std::fabs(travel_.end()[1] - travel_.position()[1]) < turned_slack) {
+        travel_.end()[0] = travel_.position()[0];
+        travel_.end()[1] = travel_.position()[1];
     }
     return offset_contour || !off_path_ || reaches_contour();
 }
@@ -144,7 +144,7 @@ bool Interpreter::straight(std::int16_t code) {
     move.path = next().path;
     move.tolerance_mm = next().tolerance_mm;
     move.line = words_.number();
-    move.end = end_;
+    move.end = travel_.end();
     move.feed = 0;
     move.feed_mode = FeedMode::units_per_second;
     if (code != 0 && (!by_itself(code) || !feed_of(move))) return false;
@@ -161,7 +161,8 @@ bool Interpreter::by_itself(std::int16_t code) {
     if (!settings_.point_to_point) return true;
     std::string moving;
     for (int axis = 0; axis < axis_count; ++axis)
-        if (end_[axis] != position_[axis]) moving += (moving.empty() ? "" : ", ") + std::string(1, axis_letters[axis]);
+        if (travel_.end()[axis] != travel_.position()[axis])
+            moving += (moving.empty() ? "" : ", ") + std::string(1, axis_letters[axis]);
     if (moving.size() <= 1 && !is_arc(code)) return true;
     return words_.fail_at(
         words_.error_column(), GrblStatus::unsupported,
@@ -184,7 +185,7 @@ Move& Interpreter::begin_move(MoveKind kind) {
     move.path = next().path;
     move.tolerance_mm = next().tolerance_mm;
     move.line = words_.number();
-    move.end = end_;
+    move.end = travel_.end();
     return move;
 }
 
@@ -196,9 +197,10 @@ bool Interpreter::feed_of(Move& move) {
         return true;
     }
     if (next().feed == 0) return no_feed();
-    const bool rotary_only = !(off_path_ && next().cutter == CutterSide::off) && end_[0] == position_[0] &&
-                             end_[1] == position_[1] && end_[2] == position_[2] &&
-                             (block().words & rotary_words) != 0 && move.kind == MoveKind::feed;
+    const bool rotary_only = !(off_path_ && next().cutter == CutterSide::off) &&
+                             travel_.end()[0] == travel_.position()[0] && travel_.end()[1] == travel_.position()[1] &&
+                             travel_.end()[2] == travel_.position()[2] && (block().words & rotary_words) != 0 &&
+                             move.kind == MoveKind::feed;
     move.feed_mode = FeedMode::units_per_second;
     move.feed = rotary_only ? next().feed_rotary : next().feed;
     return true;

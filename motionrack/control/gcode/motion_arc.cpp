@@ -50,8 +50,8 @@ bool Interpreter::arc(std::int16_t code) {
     motion_ = Motion::single;
     todo_ |= todo_motion;
     if (compensates()) return compensate();
-    return arc_within_limits({position_[axes[0]], position_[axes[1]]}, {end_[axes[0]], end_[axes[1]]}, centre,
-                             move.turns);
+    return arc_within_limits({travel_.position()[axes[0]], travel_.position()[axes[1]]},
+                             {travel_.end()[axes[0]], travel_.end()[axes[1]]}, centre, move.turns);
 }
 
 /// In a rotated work system an arc of G18 or G19 would not lie in a plane of two axes; a cycle would drill on a slant.
@@ -67,15 +67,15 @@ bool Interpreter::in_turned_plane(std::int16_t code) {
 /// Computes the centre from R or from I J K.
 bool Interpreter::arc_centre(bool counter_clockwise, PlanePoint& centre) {
     const auto& axes = plane_axes[next().plane];
-    const PlanePoint start = {position_[axes[0]], position_[axes[1]]};
-    const PlanePoint end = {end_[axes[0]], end_[axes[1]]};
+    const PlanePoint start = {travel_.position()[axes[0]], travel_.position()[axes[1]]};
+    const PlanePoint end = {travel_.end()[axes[0]], travel_.end()[axes[1]]};
     const bool closed =
         std::fabs(end.first - start.first) <= same_point_mm && std::fabs(end.second - start.second) <= same_point_mm;
     if (block().has('R')) return arc_centre_of_radius(start, end, closed, counter_clockwise, centre);
     if (!arc_centre_of_offsets(start, centre)) return false;
     if (closed) {
-        end_[axes[0]] = start.first;
-        end_[axes[1]] = start.second;
+        travel_.end()[axes[0]] = start.first;
+        travel_.end()[axes[1]] = start.second;
     }
     return arc_radii_agree(start, closed ? start : end, centre);
 }
@@ -169,7 +169,7 @@ bool Interpreter::arc_within_limits(PlanePoint start, PlanePoint end, PlanePoint
                                             centre.second - radius};
     const std::array<int, 4> axis = {axes[0], axes[1], axes[0], axes[1]};
     bool inside = true;
-    for (int i = 0; i < 4; ++i) inside = inside && extremes[i] >= low_[axis[i]] && extremes[i] <= high_[axis[i]];
+    for (int i = 0; i < 4; ++i) inside = inside && travel_.contains(axis[i], extremes[i]);
     if (inside) return true;
     const bool full = std::abs(turns) > 1 || (from.first == to.first && from.second == to.second);
     const auto passed = full ? std::array<bool, 4>{true, true, true, true} : extremes_passed(from, to, turns > 0);

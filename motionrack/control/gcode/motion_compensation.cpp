@@ -171,8 +171,8 @@ bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) 
 bool Interpreter::compensate() {
     Move& move = moving_.move;
     const auto& axes = plane_axes[next().plane];
-    const PlanePoint from = {position_[axes[0]], position_[axes[1]]};
-    const PlanePoint to = {end_[axes[0]], end_[axes[1]]};
+    const PlanePoint from = {travel_.position()[axes[0]], travel_.position()[axes[1]]};
+    const PlanePoint to = {travel_.end()[axes[0]], travel_.end()[axes[1]]};
     if (move.kind != MoveKind::arc && from.first == to.first && from.second == to.second) {
         if (!compensating_) return !off_path_ || reaches_contour();
         move.end[axes[0]] = cutter_path_.end.first;
@@ -197,8 +197,8 @@ bool Interpreter::compensate() {
 /// Checks the return from the offset path to the contour, which may be outside the limits.
 bool Interpreter::reaches_contour() {
     for (int axis = 0; axis < 3; ++axis)
-        if (end_[axis] != position_[axis] || end_[axis] != at_[axis])
-            if (!reach(axis, end_[axis], words_.error_column())) return false;
+        if (travel_.end()[axis] != travel_.position()[axis] || travel_.end()[axis] != at_[axis])
+            if (!reach(axis, travel_.end()[axis], words_.error_column())) return false;
     return true;
 }
 
@@ -238,7 +238,7 @@ bool Interpreter::join(PlanePoint corner) {
     arc.turns = offset > 0 ? -1 : 1;
     arc.centre_first = corner.first;
     arc.centre_second = corner.second;
-    arc.end = position_;
+    arc.end = travel_.position();
     arc.end[axes[0]] = path.start.first;
     arc.end[axes[1]] = path.start.second;
     if (arc.kind == MoveKind::arc && !arc_within_limits(cutter_path_.end, path.start, corner, arc.turns))
@@ -291,7 +291,7 @@ void Interpreter::commit_cutter() {
         if (ends) held_.settle(axes[0], axes[1], cutter_path_);
     }
     if (compensating_ || cutter_plan_.begins) {
-        at_ = position_;
+        at_ = travel_.position();
         at_[axes[0]] = cutter_path_.end.first;
         at_[axes[1]] = cutter_path_.end.second;
         off_path_ = !(off && moved);
@@ -328,7 +328,7 @@ void Interpreter::hold_steps() {
 }
 
 void Interpreter::resync_position(const Point& position) {
-    position_ = position;
+    travel_.move_to(position);
     held_.clear();
     compensating_ = off_path_ = false;
     modes_.switch_cutter_off();

@@ -110,8 +110,8 @@ bool Interpreter::cycle(std::int16_t code) {
     plan.first = axes[0];
     plan.second = axes[1];
     plan.third = axes[2];
-    plan.from = position_;
-    plan.level = position_[third];
+    plan.from = travel_.position();
+    plan.level = travel_.position()[third];
     const double offset = frame_now().offset[third];
     const bool goes_on = is_cycle(modes().motion) && modes().plane == next().plane;
     if (!goes_on) next().cycle_level = plan.level;
@@ -145,12 +145,12 @@ bool Interpreter::cycle(std::int16_t code) {
 /// Checks the first and the last hole, because all holes lie on a straight line. Computes the steps, the first hole and
 /// the end.
 bool Interpreter::cycle_within_limits(DrillCycle& plan) {
-    plan.pattern.end = position_;
+    plan.pattern.end = travel_.position();
     if (!(frame_now().is_rotated ? cycle_places_turned(plan) : cycle_places(plan))) return false;
     const char depth = axis_letters[plan.third];
     const std::size_t r_column = block().has('R') ? block().column[letter_index('R')] : words_.error_column();
     const std::size_t depth_column = block().has(depth) ? block().column[letter_index(depth)] : words_.error_column();
-    end_[plan.third] = plan.clear;
+    travel_.end()[plan.third] = plan.clear;
     if (plan.clear != plan.level && !reach(plan.third, plan.clear, r_column)) return false;
     return reach(plan.third, plan.r, r_column) && reach(plan.third, plan.bottom, depth_column);
 }
@@ -158,7 +158,7 @@ bool Interpreter::cycle_within_limits(DrillCycle& plan) {
 /// Computes the first hole and the steps in a rotated work system, G17.
 bool Interpreter::cycle_places_turned(DrillCycle& plan) {
     const WorkFrame& frame = frame_now();
-    Point words = next().incremental ? Point{} : frame.to_program(position_);
+    Point words = next().incremental ? Point{} : frame.to_program(travel_.position());
     for (int axis = 0; axis < 2; ++axis)
         if (block().has(axis_letters[axis])) words[axis] = scaled(axis_letters[axis]);
     const Point by = frame.rotate(words), to = frame.to_machine(words);
@@ -166,9 +166,9 @@ bool Interpreter::cycle_places_turned(DrillCycle& plan) {
         double& step = axis == 0 ? plan.step_first : plan.step_second;
         step = next().incremental ? by[axis] : 0;
         if (!next().incremental) plan.pattern.end[axis] = to[axis];
-        end_[axis] = plan.pattern.end[axis] + plan.repeats * step;
+        travel_.end()[axis] = plan.pattern.end[axis] + plan.repeats * step;
         if (!reach(axis, plan.pattern.end[axis] + step, words_.error_column()) ||
-            !reach(axis, end_[axis], words_.error_column()))
+            !reach(axis, travel_.end()[axis], words_.error_column()))
             return false;
     }
     return true;
@@ -185,8 +185,9 @@ bool Interpreter::cycle_places(DrillCycle& plan) {
             step = value;
         else
             plan.pattern.end[axis] = value + frame_now().offset[axis];
-        end_[axis] = plan.pattern.end[axis] + plan.repeats * step;
-        if (!reach(axis, plan.pattern.end[axis] + step, column) || !reach(axis, end_[axis], column)) return false;
+        travel_.end()[axis] = plan.pattern.end[axis] + plan.repeats * step;
+        if (!reach(axis, plan.pattern.end[axis] + step, column) || !reach(axis, travel_.end()[axis], column))
+            return false;
     }
     return true;
 }

@@ -23,12 +23,12 @@ bool Interpreter::turning(std::int16_t code) {
     plan.code = code;
     if (!turning_allowed(code) || !turning_words(code, plan)) return false;
     words_.use(axis_words);
-    const Point stays = end_;
+    const Point stays = travel_.end();
     const bool incremental = std::exchange(next().incremental, false);  // X and Z are absolute in G91 too
     if ((block().words & axis_words) != 0 && !targets(false)) return false;
     next().incremental = incremental;
-    plan.start = {end_[2], end_[0]};
-    end_ = stays;
+    plan.start = {travel_.end()[2], travel_.end()[0]};
+    travel_.end() = stays;
     if (!feed_of(begin_move(MoveKind::feed))) return false;
     next().motion = no_motion;
     turning_ = plan;
@@ -104,21 +104,21 @@ bool Interpreter::turning_words(std::int16_t code, LatheCycle& plan) {
 
 Interpreter Interpreter::contour_interpreter() const {
     Interpreter reader = *this;
-    reader.low_.fill(-1e9);
-    reader.high_.fill(1e9);
-    reader.present_words_ = axis_words;
+    reader.travel_.remove_limits();
     reader.settings_.probe = reader.settings_.point_to_point = false;
     reader.turning_.reset();
     reader.todo_ = 0;
-    reader.position_[2] = turning_->start.first;
-    reader.position_[0] = turning_->start.second;
+    Point start = travel_.position();
+    start[2] = turning_->start.first;
+    start[0] = turning_->start.second;
+    reader.travel_.move_to(start);
     return reader;
 }
 
 Outcome<void> Interpreter::turn(std::vector<ContourSegment> contour) {
     const std::size_t column = block().g_column[g_motion];
     const std::string fault =
-        gcode::make_lathe_moves(*turning_, std::move(contour), {position_[2], position_[0]}, turned_);
+        gcode::make_lathe_moves(*turning_, std::move(contour), {travel_.position()[2], travel_.position()[0]}, turned_);
     const std::string name = name_of_g(turning_->code);
     turning_.reset();
     if (!fault.empty()) words_.fail_at(column, GrblStatus::bad_target, fmt::format("{}: {}", name, fault));
@@ -128,17 +128,19 @@ Outcome<void> Interpreter::turn(std::vector<ContourSegment> contour) {
     }
     turned_pulled_ = 0;
     if (turned_.empty()) return {};
-    position_[2] = turned_.back().to.first;
-    position_[0] = turned_.back().to.second;
+    Point end = travel_.position();
+    end[2] = turned_.back().to.first;
+    end[0] = turned_.back().to.second;
+    travel_.move_to(end);
     motion_ = Motion::turning;
     todo_ |= todo_motion;
-    moving_.move.end = position_;
+    moving_.move.end = travel_.position();
     return {};
 }
 
 bool Interpreter::turning_within_limits() {
     const std::size_t column = block().g_column[g_motion];
-    PlanePoint from = {position_[2], position_[0]};
+    PlanePoint from = {travel_.position()[2], travel_.position()[0]};
     for (const LatheMove& move : turned_) {
         if (!reach(2, move.to.first, column) || !reach(0, move.to.second, column)) return false;
         if (move.kind == MoveKind::arc && !arc_within_limits(from, move.to, move.centre, move.turns)) return false;

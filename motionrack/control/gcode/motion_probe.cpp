@@ -33,9 +33,10 @@ bool Interpreter::probing(std::int16_t code) {
         return words_.fail_at(words_.error_column(), status, name + why);
     };
     for (int axis = 3; axis < axis_count; ++axis)
-        if (end_[axis] != position_[axis])
+        if (travel_.end()[axis] != travel_.position()[axis])
             return refuse(GrblStatus::unused_word, " does not turn axes; put the turn on a line before it");
-    if (end_ == position_) return refuse(GrblStatus::bad_target, " has no length; its end is the current position");
+    if (travel_.end() == travel_.position())
+        return refuse(GrblStatus::bad_target, " has no length; its end is the current position");
     constexpr std::array<Probe, 4> kinds = {Probe::contact, Probe::contact_if, Probe::release, Probe::release_if};
     moving_.probe = kinds[static_cast<std::size_t>(code - 382)];
     moving_.move.path = PathControl::exact_stop;

@@ -9,8 +9,8 @@ namespace motionrack::control::gcode {
 
 bool Interpreter::spline(std::int16_t code) {
     if (!spline_allowed(code) || !targets(false)) return false;
-    const PlanePoint start = {position_[0], position_[1]};
-    const PlanePoint end = {end_[0], end_[1]};
+    const PlanePoint start = {travel_.position()[0], travel_.position()[1]};
+    const PlanePoint end = {travel_.end()[0], travel_.end()[1]};
     CubicBezier curve;
     if (!(code == 50 ? cubic_of_words(start, end, curve) : quadratic_of_words(start, end, curve))) return false;
     if (curve.is_point()) {
@@ -133,7 +133,8 @@ bool Interpreter::negative_handles() const {
 bool Interpreter::pull_spline() {
     Move& move = moving_.move;
     if (!spline_.next(move)) return false;
-    for (const int axis : {0, 1}) move.end[axis] = std::clamp(move.end[axis], low_[axis], high_[axis]);
+    for (const int axis : {0, 1})
+        move.end[axis] = std::clamp(move.end[axis], travel_.low()[axis], travel_.high()[axis]);
     return true;
 }
 

@@ -18,10 +18,10 @@ bool Interpreter::nonmodal() {
         case 300:
             return reference();
         case 281:
-            edit_frame().g28 = position_;
+            edit_frame().g28 = travel_.position();
             break;
         case 301:
-            edit_frame().g30 = position_;
+            edit_frame().g30 = travel_.position();
             break;
         case 920:
             return shift();
@@ -76,7 +76,7 @@ bool Interpreter::shift() {
     const Point shifted_before = frame.g92;
     frame.g92 = {};
     frame.activate(next().system);
-    const Point unshifted = frame.to_program(position_);
+    const Point unshifted = frame.to_program(travel_.position());
     frame.g92 = shifted_before;
     for (int axis = 0; axis < axis_count; ++axis) {
         if ((block().words & letter_bit(axis_letters[axis])) == 0) continue;
@@ -96,14 +96,14 @@ bool Interpreter::reference() {
     }
     const std::uint32_t axes = block().words & axis_words;
     if (axes != 0 && !targets(false)) return false;
-    via_ = end_;
+    via_ = travel_.end();
     const Point& home = block().g[g_nonmodal] == 280 ? frame_now().g28 : frame_now().g30;
     const std::size_t column = block().g_column[g_nonmodal];
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::uint32_t bit = letter_bit(axis_letters[axis]);
-        if ((present_words_ & bit) == 0 || (axes != 0 && (axes & bit) == 0)) continue;
+        if ((travel_.present_words() & bit) == 0 || (axes != 0 && (axes & bit) == 0)) continue;
         if (!reach(axis, home[axis], column)) return false;
-        end_[axis] = home[axis];
+        travel_.end()[axis] = home[axis];
     }
     begin_move(MoveKind::rapid);
     motion_ = axes != 0 ? Motion::via_point : Motion::single;

@@ -63,7 +63,7 @@ bool Interpreter::set_work_offset(int system, bool from_position) {
             if ((block().words & letter_bit(axis_letters[axis])) == 0) continue;
             const double value = block().value[axis_letter(axis)] * scale_of(axis);
             const double others = frame.g92[axis] + frame.tool[axis];
-            frame.work[place][axis] = from_position ? position_[axis] - others - value : value;
+            frame.work[place][axis] = from_position ? travel_.position()[axis] - others - value : value;
         }
     }
     frame.activate(next().system);
@@ -74,7 +74,7 @@ bool Interpreter::set_work_offset(int system, bool from_position) {
 /// Returns the change of an offset, along the axes of the frame in machine coordinates, that makes the current position
 /// read as the words.
 Point Interpreter::shift_to_words(const WorkFrame& frame) const {
-    const Point now = frame.to_program(position_);
+    const Point now = frame.to_program(travel_.position());
     Point by = {};
     for (int axis = 0; axis < axis_count; ++axis) {
         if ((block().words & letter_bit(axis_letters[axis])) == 0) continue;
