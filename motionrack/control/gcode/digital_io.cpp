@@ -35,8 +35,7 @@ bool Interpreter::ports() {
             block().m_column[m_io], GrblStatus::word_missing,
             fmt::format("Q word missing: M{} needs the value for its output; write e.g. M{} E0 Q2.5", code, code));
     }
-    port_value_ = analog ? block()['Q'] : code == 62 || code == 64 ? 1 : 0;
-    todo_ |= todo_port;
+    steps_.add_port(analog ? block()['Q'] : code == 62 || code == 64 ? 1 : 0);
     return true;
 }
 
@@ -63,10 +62,8 @@ bool Interpreter::read_input() {
                                     fmt::format("Q word missing: {}", why));
     }
     const bool comes = wait == at_once || wait == low;
-    port_value_ = comes ? 0 : -1;
-    wait_seconds_ = comes ? 0 : block()['Q'];
-    todo_ |= todo_port;
-    if (!comes) todo_ |= todo_wait;
+    steps_.add_port(comes ? 0 : -1);
+    if (!comes) steps_.add_wait(block()['Q']);
     return true;
 }
 
@@ -98,15 +95,6 @@ bool Interpreter::claim_words(std::uint32_t words) {
         letter, GrblStatus::axis_conflict,
         fmt::format("{}: M{} and another word of this line both use the {} word; put them on two lines",
                     words_.word_text(letter), block().m[m_io], letter));
-}
-
-void Interpreter::fill_port() {
-    const int code = block().m[m_io];
-    event_.kind = code == wait_on_input ? CanonCallKind::input : CanonCallKind::output;
-    event_.analog = block().has('E') && (is_analog_output(code) || code == wait_on_input);
-    event_.with_motion = code == 62 || code == 63 || code == 67;
-    event_.port = static_cast<std::int32_t>(block()[event_.analog ? 'E' : 'P']);
-    event_.value = port_value_;
 }
 
 }  // namespace motionrack::control::gcode

@@ -25,14 +25,13 @@ Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
 }
 
 Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Language language) {
-    todo_ = 0;
+    steps_.begin_line();
     held_.begin_line();
     words_.begin_line(number, language);
-    moving_.kind = CanonCallKind::move;
-    if (end_pending_) apply_end();
+    steps_.apply_end(modes_, offsets_);
     const MachineParameters known(*this);
     if (!words_.scan(text, {settings_.block_delete, language, &known}) || !evaluate()) {
-        todo_ = 0;
+        steps_.clear();
         return words_.problem_of(number);
     }
     return {};
@@ -55,17 +54,14 @@ bool Interpreter::evaluate() {
     if (block().has_g(g_nonmodal) && !nonmodal()) return false;
     if (!motion()) return false;
     if (block().has_m(m_io) && !ports()) return false;
-    if (ends_program() && next().cutter != CutterSide::off && !end_cutter()) return false;
+    if (steps_.ends_program() && next().cutter != CutterSide::off && !end_cutter()) return false;
     if (held_.full() && !may_wait()) return false;
     if (!words_.need_all_used(next().motion)) return false;
-    if (!block().comments.empty()) {
-        todo_ |= todo_comments;
-        comments_pulled_ = 0;
-    }
+    if (!block().comments.empty()) steps_.add_comments();
     if (!block().assignments.empty() && !assign()) return false;
     if (!block().comments.empty()) show_values();
     if (block().has_m(m_state)) modes_.save(block().m[m_state], static_cast<std::size_t>(parameters_.level()));
-    if (block().has_m(m_io) && block().m[m_io] == 66) parameters_.set(input_parameter, port_value_);
+    if (block().has_m(m_io) && block().m[m_io] == 66) parameters_.set(input_parameter, steps_.port_value());
     commit();
     return true;
 }
@@ -175,118 +171,12 @@ void Interpreter::apply_feed() {
 }
 
 void Interpreter::commit() {
-    if ((todo_ & (todo_dwell | todo_wait)) != 0) dwell_at_ = position();
-    end_pending_ = ends_program();
-    moving_.overridable = next().feed_override;
+    steps_.commit(position(), next().feed_override);
     travel_.commit();
     modes_.commit();
     offsets_.commit();
     if (modes().cutter != CutterSide::off || off_path_) commit_cutter();
-    if ((todo_ & todo_motion) != 0 && moving_.probe != Probe::none) store_probe_result(true, travel_.position());
-}
-
-const CanonCall* Interpreter::pull_next() {
-    has_waited_ = false;
-    const std::uint32_t what = todo_ & (0 - todo_);
-    if (what == todo_motion) return pull_motion();
-    if (what == todo_held) {
-        if (const CanonCall* step = held_.next()) {
-            has_waited_ = held_.was_held();
-            return step;
-        }
-        todo_ &= ~what;
-        return pull();
-    }
-    if (what == todo_comments) return pull_comment();
-    todo_ &= ~what;
-    event_ = CanonCall{};
-    event_.line = words_.number();
-    event_.speed_rpm = modes().speed_rpm;
-    event_.tool = modes().tool_selected;
-    event_.mist = modes().mist;
-    event_.flood = modes().flood;
-    event_.overridable = modes().feed_override;
-    switch (what) {
-        case todo_spindle_speed:
-            event_.kind = CanonCallKind::spindle_speed;
-            break;
-        case todo_tool_select:
-            event_.kind = CanonCallKind::tool_select;
-            break;
-        case todo_tool_change:
-            event_.kind = block().m[m_tool] == 61 ? CanonCallKind::tool_number : CanonCallKind::tool_change;
-            event_.tool = modes().tool_loaded;
-            break;
-        case todo_coolant:
-            event_.kind = CanonCallKind::coolant;
-            break;
-        case todo_spindle:
-            event_.kind = CanonCallKind::spindle;
-            event_.spindle = modes().spindle;
-            break;
-        case todo_wait:
-            fill_dwell(wait_seconds_);
-            event_.awaits_input = true;
-            break;
-        case todo_port:
-            fill_port();
-            break;
-        case todo_overrides:
-            fill_overrides();
-            break;
-        case todo_dwell:
-            fill_dwell(dwell_seconds_);
-            break;
-        default:
-            if (end_pending_) apply_end();
-            event_.kind = stop_code_ == 0 || stop_code_ == 60 ? CanonCallKind::pause
-                          : stop_code_ == 1                   ? CanonCallKind::optional_pause
-                                                              : CanonCallKind::end;
-            break;
-    }
-    return &event_;
-}
-
-void Interpreter::fill_dwell(double seconds) {
-    Move& move = event_.move;
-    move.kind = MoveKind::dwell;
-    move.path = modes().path;
-    move.tolerance_mm = modes().tolerance_mm;
-    move.line = words_.number();
-    move.seconds = seconds;
-    move.end = dwell_at_;
-}
-
-const CanonCall* Interpreter::pull_motion() {
-    if (motion_ == Motion::single) {
-        todo_ &= ~static_cast<std::uint32_t>(todo_motion);
-        return &moving_;
-    }
-    if (motion_ == Motion::via_point) {
-        moving_.move.end = via_point_pending_ ? travel_.position() : via_;
-        if (via_point_pending_) todo_ &= ~static_cast<std::uint32_t>(todo_motion);
-        via_point_pending_ = true;
-        return &moving_;
-    }
-    if (motion_ == Motion::turning) {
-        pull_turning();
-        return &moving_;
-    }
-    if (motion_ == Motion::spline ? pull_spline() : cycle_.next(moving_)) return &moving_;
-    moving_.kind = CanonCallKind::move;
-    todo_ &= ~static_cast<std::uint32_t>(todo_motion);
-    return pull();
-}
-
-const CanonCall* Interpreter::pull_comment() {
-    const Comment& comment = block().comments[comments_pulled_++];
-    if (comments_pulled_ == block().comments.size()) todo_ &= ~static_cast<std::uint32_t>(todo_comments);
-    event_ = CanonCall{};
-    event_.kind = comment.message ? CanonCallKind::message : CanonCallKind::comment;
-    event_.line = words_.number();
-    event_.text = comment.text;
-    if (comment.values) event_.text = shown_[comments_pulled_ - 1];
-    return &event_;
+    if (steps_.is_probing()) store_probe_result(true, travel_.position());
 }
 
 Point Interpreter::program_position() const {

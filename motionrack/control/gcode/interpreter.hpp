@@ -29,17 +29,16 @@
 #pragma once
 
 #include <motionrack/control/gcode/arc.hpp>
-#include <motionrack/control/gcode/biarc_approximator.hpp>
 #include <motionrack/control/gcode/block.hpp>
 #include <motionrack/control/gcode/canon_call.hpp>
 #include <motionrack/control/gcode/compensation_queue.hpp>
-#include <motionrack/control/gcode/drill_cycle.hpp>
 #include <motionrack/control/gcode/language/parameters.hpp>
 #include <motionrack/control/gcode/lathe_cycle.hpp>
 #include <motionrack/control/gcode/line_words.hpp>
 #include <motionrack/control/gcode/modal_state.hpp>
 #include <motionrack/control/gcode/offsets.hpp>
 #include <motionrack/control/gcode/settings.hpp>
+#include <motionrack/control/gcode/step_queue.hpp>
 #include <motionrack/control/gcode/travel.hpp>
 
 namespace motionrack::control::gcode {
@@ -70,16 +69,13 @@ class Interpreter {
     Outcome<void> line(std::string_view text, std::int32_t number, Language language = Language::words);
 
     /// Returns the next call of the last line, valid until the next pull(); null if there is none.
-    const CanonCall* pull() {
-        if (todo_ == 0) return nullptr;
-        return pull_next();
-    }
+    const CanonCall* pull() { return steps_.next({words_, modes_, offsets_, travel_, held_}); }
 
     /// Completes a move that cutter compensation holds back at the end of the program, and the calls behind it; pull
     /// them as after a line. Compensation is off afterwards. An error belongs to the line that waited.
     Outcome<void> finish();
     /// Returns true if the last pulled call belongs to an earlier line and was held back.
-    bool was_held() const { return has_waited_; }
+    bool was_held() const { return steps_.was_held(); }
 
     /// Returns the machine coordinates after the last line; with cutter compensation, the cutter centre if it stops
     /// here.
@@ -116,23 +112,6 @@ class Interpreter {
     void reset_after_program();
 
   private:
-    enum Todo : std::uint32_t {
-        todo_held = 1,
-        todo_comments = 2,
-        todo_spindle_speed = 4,
-        todo_tool_select = 8,
-        todo_wait = 16,
-        todo_port = 32,
-        todo_tool_change = 64,
-        todo_spindle = 128,
-        todo_coolant = 256,
-        todo_overrides = 512,
-        todo_dwell = 1024,
-        todo_motion = 2048,
-        todo_stop = 4096
-    };
-    enum class Motion : std::uint8_t { single, via_point, cycle, spline, turning };
-
     bool evaluate();
     bool check_values();
     bool assign();
@@ -145,13 +124,7 @@ class Interpreter {
     bool port_number(char letter, char other);
     bool claim_words(std::uint32_t words);
     bool read_input();
-    void fill_dwell(double seconds);
-    void fill_port();
-    void fill_overrides();
-    void apply_end();
     void commit();
-    /// Returns true if M2 or M30 is on the line.
-    bool ends_program() const { return (todo_ & todo_stop) != 0 && (stop_code_ == 2 || stop_code_ == 30); }
     bool nonmodal();
     bool dwell();
     bool set_offsets();
@@ -211,14 +184,12 @@ class Interpreter {
     bool turning(std::int16_t code);
     bool turning_allowed(std::int16_t code);
     bool turning_words(std::int16_t code, LatheCycle& plan);
-    bool turning_within_limits();
-    void pull_turning();
+    bool turning_within_limits(const std::vector<LatheMove>& moves);
     bool spline(std::int16_t code);
     bool spline_allowed(std::int16_t code);
     bool cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve);
     bool quadratic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve);
     PlanePoint turned_handle(PlanePoint handle) const;
-    bool pull_spline();
     bool negative_handles() const;
     bool targets(bool machine_coordinates);
     bool targets_turned();
@@ -229,9 +200,6 @@ class Interpreter {
     }
     bool exceeds_travel(int axis, double value, std::size_t column);
     bool no_feed();
-    const CanonCall* pull_next();
-    const CanonCall* pull_motion();
-    const CanonCall* pull_comment();
     void show_values();
     std::string substitute_values(std::string_view text) const;
 
@@ -252,7 +220,6 @@ class Interpreter {
 
     // Cutter compensation: the waiting move, and the effect of the current line on it.
     CompensationQueue held_;
-    bool has_waited_ = false;
     bool compensating_ = false;  // a move waits in held_; from the first compensated move to G40
     bool off_path_ = false;      // the machine is at at_, not at the programmed position
     Point at_ = {};
@@ -261,27 +228,9 @@ class Interpreter {
     std::int32_t cutter_line_ = 0;
     CompensationPlan cutter_plan_;
 
-    // Remaining calls.
-    std::uint32_t todo_ = 0;
-    Motion motion_ = Motion::single;
-    bool via_point_pending_ = false;
-    std::size_t comments_pulled_ = 0;
-    std::vector<std::string> shown_;  ///< output of the comments with values
-    double dwell_seconds_ = 0;
-    double wait_seconds_ = 0;  ///< M66
-    double port_value_ = 0;    ///< M62 .. M68
-    Point dwell_at_ = {};
-    std::int16_t stop_code_ = 0;
-    bool end_pending_ = false;
-    Point via_ = {};
-    CanonCall event_;
-    CanonCall moving_;
-    DrillCycleMoves cycle_;
-    BiarcApproximator spline_;
     std::optional<LatheCycle> turning_;  ///< lathe cycle of the last line
     std::string contour_label_;
-    std::vector<LatheMove> turned_;
-    std::size_t turned_pulled_ = 0;
+    StepQueue steps_;
 };
 
 }  // namespace motionrack::control::gcode

@@ -8,11 +8,11 @@ namespace motionrack::control::gcode {
 bool Interpreter::apply_machine_words() {
     if (block().has('S')) {
         next().speed_rpm = block()['S'];
-        todo_ |= todo_spindle_speed;
+        steps_.add(StepQueue::todo_spindle_speed);
     }
     if (block().has('T')) {
         next().tool_selected = static_cast<std::int32_t>(block()['T']);
-        todo_ |= todo_tool_select;
+        steps_.add(StepQueue::todo_tool_select);
     }
     if (block().has_m(m_tool) && block().m[m_tool] == 61) {
         if (!set_tool()) return false;
@@ -23,34 +23,26 @@ bool Interpreter::apply_machine_words() {
                 "M6 changes to the tool selected by a T word, and none was selected; write e.g. T1 M6");
         }
         next().tool_loaded = next().tool_selected;
-        todo_ |= todo_tool_change;
+        steps_.add(StepQueue::todo_tool_change);
     }
     if (block().has_m(m_spindle)) {
         const int code = block().m[m_spindle];
         next().spindle = code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
-        todo_ |= todo_spindle;
+        steps_.add(StepQueue::todo_spindle);
     }
     if (block().has_m(m_mist)) next().mist = true;
     if (block().has_m(m_flood)) next().flood = true;
     if (block().has_m(m_coolant_off)) next().mist = next().flood = false;
-    if ((block().m_groups & (1u << m_mist | 1u << m_flood | 1u << m_coolant_off)) != 0) todo_ |= todo_coolant;
+    if ((block().m_groups & (1u << m_mist | 1u << m_flood | 1u << m_coolant_off)) != 0)
+        steps_.add(StepQueue::todo_coolant);
     if (block().has_m(m_override) && !overrides()) return false;
     if (block().has_m(m_state) && block().m[m_state] == 72) {
         if (const ModalState* saved = modes_.saved(static_cast<std::size_t>(parameters_.level()))) restore(*saved);
     }
     if (block().has_m(m_stop)) {
-        stop_code_ = block().m[m_stop];
-        todo_ |= todo_stop;
+        steps_.add_stop(block().m[m_stop]);
     }
     return true;
-}
-
-/// Applies the state after M2 and M30 that Grbl and LinuxCNC reset. Runs when the end is pulled, so that the moves
-/// before it on the line keep their frame.
-void Interpreter::apply_end() {
-    end_pending_ = false;
-    modes_.end_program();
-    offsets_.activate(modes().system);
 }
 
 /// M48 .. M53. The machine has no spindle override or feed stop switch: their state is stored and reported.
@@ -67,18 +59,8 @@ bool Interpreter::overrides() {
     if (code <= 50) next().feed_override = on;
     if (code <= 49 || code == 51) next().speed_override = on;
     if (code == 53) next().feed_stop = on;
-    todo_ |= todo_overrides;
+    steps_.add(StepQueue::todo_overrides);
     return true;
-}
-
-void Interpreter::fill_overrides() {
-    const int code = block().m[m_override];
-    event_.kind = CanonCallKind::overrides;
-    event_.port = code;
-    event_.value = code == 51   ? modes().speed_override
-                   : code == 52 ? false
-                   : code == 53 ? modes().feed_stop
-                                : modes().feed_override;
 }
 
 /// M98 P L and M99 must be alone on the line; ProgramFlow executes them.
@@ -118,7 +100,7 @@ bool Interpreter::set_tool() {
     if (!require_tool('Q', number)) return false;
     words_.use(letter_bit('Q'));
     next().tool_loaded = number;
-    todo_ |= todo_tool_change;
+    steps_.add(StepQueue::todo_tool_change);
     return true;
 }
 

@@ -139,7 +139,7 @@ bool Interpreter::targets_turned() {
 bool Interpreter::straight(std::int16_t code) {
     if (is_probing(code) && !may_probe(code)) return false;
     if (!targets(block().has_g(g_nonmodal) && block().g[g_nonmodal] == 530)) return false;
-    Move& move = moving_.move;
+    Move& move = steps_.moving().move;
     move.kind = code == 0 ? MoveKind::rapid : MoveKind::feed;
     move.path = next().path;
     move.tolerance_mm = next().tolerance_mm;
@@ -148,11 +148,10 @@ bool Interpreter::straight(std::int16_t code) {
     move.feed = 0;
     move.feed_mode = FeedMode::units_per_second;
     if (code != 0 && (!by_itself(code) || !feed_of(move))) return false;
-    moving_.probe = Probe::none;
+    steps_.moving().probe = Probe::none;
     if (is_probing(code) && !probing(code)) return false;
-    moving_.line = words_.number();
-    motion_ = Motion::single;
-    todo_ |= todo_motion;
+    steps_.moving().line = words_.number();
+    steps_.add_move();
     return !compensates() || compensate();
 }
 
@@ -177,9 +176,9 @@ bool Interpreter::by_itself(std::int16_t code) {
 
 /// Starts a move of the current line with the active modes, to the targets of the words.
 Move& Interpreter::begin_move(MoveKind kind) {
-    moving_.line = words_.number();
-    moving_.probe = Probe::none;
-    Move& move = moving_.move;
+    steps_.moving().line = words_.number();
+    steps_.moving().probe = Probe::none;
+    Move& move = steps_.moving().move;
     move = Move{};
     move.kind = kind;
     move.path = next().path;

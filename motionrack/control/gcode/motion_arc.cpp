@@ -47,8 +47,7 @@ bool Interpreter::arc(std::int16_t code) {
     move.centre_first = centre.first;
     move.centre_second = centre.second;
     if (!feed_of(move)) return false;
-    motion_ = Motion::single;
-    todo_ |= todo_motion;
+    steps_.add_move();
     if (compensates()) return compensate();
     return arc_within_limits({travel_.position()[axes[0]], travel_.position()[axes[1]]},
                              {travel_.end()[axes[0]], travel_.end()[axes[1]]}, centre, move.turns);

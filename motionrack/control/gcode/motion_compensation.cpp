@@ -138,7 +138,7 @@ bool Interpreter::gouges(std::int32_t line) {
 
 /// Computes the offset path of the move from straight() or arc().
 bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) {
-    const Move& move = moving_.move;
+    const Move& move = steps_.moving().move;
     const double radius = next().cutter_radius_mm;
     const double offset = next().cutter == CutterSide::left ? radius : -radius;
     const PlanePoint centre = {move.centre_first, move.centre_second};
@@ -169,7 +169,7 @@ bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) 
 
 /// Converts the programmed move to that of the cutter, which waits until the next one is known.
 bool Interpreter::compensate() {
-    Move& move = moving_.move;
+    Move& move = steps_.moving().move;
     const auto& axes = plane_axes[next().plane];
     const PlanePoint from = {travel_.position()[axes[0]], travel_.position()[axes[1]]};
     const PlanePoint to = {travel_.end()[axes[0]], travel_.end()[axes[1]]};
@@ -231,7 +231,7 @@ bool Interpreter::join(PlanePoint corner) {
     if (!cutter_plan_.around) return true;
     // Before a rapid the corner is connected straight, above the workpiece.
     Move& arc = cutter_plan_.arc;
-    arc = moving_.move;
+    arc = steps_.moving().move;
     if (arc.kind != MoveKind::rapid) arc.kind = MoveKind::arc;
     arc.first = axes[0];
     arc.second = axes[1];
@@ -266,8 +266,8 @@ bool Interpreter::end_cutter() {
 
 /// Refuses a line whose calls would have to wait as well: it has no compensated move and does not end compensation.
 bool Interpreter::may_wait() {
-    const bool adds = (todo_ & ~static_cast<std::uint32_t>(todo_comments)) != 0;
-    if (!adds || cutter_plan_.begins || next().cutter == CutterSide::off || ends_program()) return true;
+    const bool adds = !steps_.has_only(StepQueue::todo_comments);
+    if (!adds || cutter_plan_.begins || next().cutter == CutterSide::off || steps_.ends_program()) return true;
     return words_.fail_at(
         0, GrblStatus::unsupported,
         fmt::format(
@@ -280,8 +280,8 @@ bool Interpreter::may_wait() {
 void Interpreter::commit_cutter() {
     const auto& axes = plane_axes[modes().plane];
     const bool off = modes().cutter == CutterSide::off;
-    const bool ends = end_pending_ || off;
-    const bool moved = (todo_ & todo_motion) != 0;
+    const bool ends = steps_.is_end_pending() || off;
+    const bool moved = steps_.has(StepQueue::todo_motion);
     if (ends && compensating_ && !cutter_plan_.begins) held_.settle(axes[0], axes[1], cutter_plan_.last);
     if (!ends || cutter_plan_.begins) hold_steps();
     if (cutter_plan_.begins) {
@@ -299,7 +299,7 @@ void Interpreter::commit_cutter() {
         off_path_ = off_path_ && !moved;
     }
     compensating_ = (compensating_ || cutter_plan_.begins) && !ends;
-    if (held_.has_ready()) todo_ |= todo_held;
+    if (held_.has_ready()) steps_.add(StepQueue::todo_held);
 }
 
 /// Completes the waiting calls up to the start of this line's move.
@@ -317,13 +317,12 @@ void Interpreter::settle_junction() {
 
 /// Queues the events and motion of this line; comments are passed on at once, the end of the program is last.
 void Interpreter::hold_steps() {
-    const std::uint32_t kept = todo_ & (todo_comments | (end_pending_ ? todo_stop : 0u));
-    todo_ &= ~kept;
-    while (todo_ != 0) {
-        if ((todo_ & (0 - todo_)) == todo_motion && cutter_plan_.begins) settle_junction();
-        held_.push(*pull_next());
+    const std::uint32_t kept = steps_.set_aside();
+    while (!steps_.empty()) {
+        if (steps_.is_motion_next() && cutter_plan_.begins) settle_junction();
+        held_.push(*pull());
     }
-    todo_ = kept;
+    steps_.add(kept);
     if (!compensating_ && !cutter_plan_.begins) held_.settle();
 }
 
@@ -335,7 +334,7 @@ void Interpreter::resync_position(const Point& position) {
 }
 
 Outcome<void> Interpreter::finish() {
-    todo_ = 0;
+    steps_.clear();
     cutter_plan_.clear();
     if (!compensating_) return {};
     const auto& axes = plane_axes[modes().plane];
@@ -348,7 +347,7 @@ Outcome<void> Interpreter::finish() {
     held_.settle(axes[0], axes[1], cutter_plan_.last);
     compensating_ = false;
     modes_.switch_cutter_off();
-    todo_ = todo_held;
+    steps_.add(StepQueue::todo_held);
     return {};
 }
 

@@ -134,11 +134,7 @@ bool Interpreter::cycle(std::int16_t code) {
     if (next().feed == 0) return no_feed();
     plan.pattern.feed = next().feed;
     if (!cycle_within_limits(plan)) return false;
-    cycle_.begin(plan);
-    moving_.line = words_.number();
-    moving_.probe = Probe::none;
-    motion_ = Motion::cycle;
-    todo_ |= todo_motion;
+    steps_.add_cycle(plan);
     return true;
 }
 

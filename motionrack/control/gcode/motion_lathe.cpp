@@ -107,7 +107,7 @@ Interpreter Interpreter::contour_interpreter() const {
     reader.travel_.remove_limits();
     reader.settings_.probe = reader.settings_.point_to_point = false;
     reader.turning_.reset();
-    reader.todo_ = 0;
+    reader.steps_.clear();
     Point start = travel_.position();
     start[2] = turning_->start.first;
     start[0] = turning_->start.second;
@@ -117,50 +117,35 @@ Interpreter Interpreter::contour_interpreter() const {
 
 Outcome<void> Interpreter::turn(std::vector<ContourSegment> contour) {
     const std::size_t column = block().g_column[g_motion];
+    std::vector<LatheMove> moves;
     const std::string fault =
-        gcode::make_lathe_moves(*turning_, std::move(contour), {travel_.position()[2], travel_.position()[0]}, turned_);
+        gcode::make_lathe_moves(*turning_, std::move(contour), {travel_.position()[2], travel_.position()[0]}, moves);
     const std::string name = name_of_g(turning_->code);
     turning_.reset();
     if (!fault.empty()) words_.fail_at(column, GrblStatus::bad_target, fmt::format("{}: {}", name, fault));
-    if (!fault.empty() || !turning_within_limits()) {
-        todo_ = 0;
+    if (!fault.empty() || !turning_within_limits(moves)) {
+        steps_.clear();
         return words_.problem_of(words_.number());
     }
-    turned_pulled_ = 0;
-    if (turned_.empty()) return {};
+    if (moves.empty()) return {};
     Point end = travel_.position();
-    end[2] = turned_.back().to.first;
-    end[0] = turned_.back().to.second;
+    end[2] = moves.back().to.first;
+    end[0] = moves.back().to.second;
     travel_.move_to(end);
-    motion_ = Motion::turning;
-    todo_ |= todo_motion;
-    moving_.move.end = travel_.position();
+    steps_.moving().move.end = end;
+    steps_.add_turning(std::move(moves));
     return {};
 }
 
-bool Interpreter::turning_within_limits() {
+bool Interpreter::turning_within_limits(const std::vector<LatheMove>& moves) {
     const std::size_t column = block().g_column[g_motion];
     PlanePoint from = {travel_.position()[2], travel_.position()[0]};
-    for (const LatheMove& move : turned_) {
+    for (const LatheMove& move : moves) {
         if (!reach(2, move.to.first, column) || !reach(0, move.to.second, column)) return false;
         if (move.kind == MoveKind::arc && !arc_within_limits(from, move.to, move.centre, move.turns)) return false;
         from = move.to;
     }
     return true;
-}
-
-void Interpreter::pull_turning() {
-    const LatheMove& turned = turned_[turned_pulled_++];
-    Move& move = moving_.move;
-    move.kind = turned.kind;
-    move.first = plane_axes[1][0];
-    move.second = plane_axes[1][1];
-    move.turns = turned.turns;
-    move.centre_first = turned.centre.first;
-    move.centre_second = turned.centre.second;
-    move.end[2] = turned.to.first;
-    move.end[0] = turned.to.second;
-    if (turned_pulled_ == turned_.size()) todo_ &= ~static_cast<std::uint32_t>(todo_motion);
 }
 
 }  // namespace motionrack::control::gcode

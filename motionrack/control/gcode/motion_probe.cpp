@@ -38,8 +38,8 @@ bool Interpreter::probing(std::int16_t code) {
     if (travel_.end() == travel_.position())
         return refuse(GrblStatus::bad_target, " has no length; its end is the current position");
     constexpr std::array<Probe, 4> kinds = {Probe::contact, Probe::contact_if, Probe::release, Probe::release_if};
-    moving_.probe = kinds[static_cast<std::size_t>(code - 382)];
-    moving_.move.path = PathControl::exact_stop;
+    steps_.moving().probe = kinds[static_cast<std::size_t>(code - 382)];
+    steps_.moving().move.path = PathControl::exact_stop;
     return true;
 }
 

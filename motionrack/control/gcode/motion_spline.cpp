@@ -1,7 +1,6 @@
 // G5 and G5.1: from words to the four points of a cubic, checked against the limits.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
 
@@ -26,11 +25,8 @@ bool Interpreter::spline(std::int16_t code) {
             return false;
         }
     }
-    Move& move = begin_move(MoveKind::arc);
-    if (!feed_of(move)) return false;
-    spline_.begin(curve, move);
-    motion_ = Motion::spline;
-    todo_ |= todo_motion;
+    if (!feed_of(begin_move(MoveKind::arc))) return false;
+    steps_.add_spline(curve);
     return true;
 }
 
@@ -127,15 +123,6 @@ bool Interpreter::negative_handles() const {
     const std::int16_t code = block().has_g(g_motion) ? block().g[g_motion] : modes().motion;
     return code == 50 && !block().has_g(g_nonmodal) && !block().has_g(g_path) && !block().has_m(m_tool) &&
            !block().has_m(m_override);
-}
-
-/// Makes the next arc of the curve. Its joints may lie beside the curve, but not outside the limits.
-bool Interpreter::pull_spline() {
-    Move& move = moving_.move;
-    if (!spline_.next(move)) return false;
-    for (const int axis : {0, 1})
-        move.end[axis] = std::clamp(move.end[axis], travel_.low()[axis], travel_.high()[axis]);
-    return true;
 }
 
 }  // namespace motionrack::control::gcode

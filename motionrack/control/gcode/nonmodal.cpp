@@ -61,8 +61,7 @@ bool Interpreter::dwell() {
                               "P word missing: G4 needs a time in seconds; write e.g. G4 P0.5");
     }
     words_.use(letter_bit('P'));
-    dwell_seconds_ = block()['P'];
-    todo_ |= todo_dwell;
+    steps_.add_dwell(block()['P']);
     return true;
 }
 
@@ -96,7 +95,7 @@ bool Interpreter::reference() {
     }
     const std::uint32_t axes = block().words & axis_words;
     if (axes != 0 && !targets(false)) return false;
-    via_ = travel_.end();
+    const Point via = travel_.end();
     const Point& home = block().g[g_nonmodal] == 280 ? frame_now().g28 : frame_now().g30;
     const std::size_t column = block().g_column[g_nonmodal];
     for (int axis = 0; axis < axis_count; ++axis) {
@@ -106,9 +105,10 @@ bool Interpreter::reference() {
         travel_.end()[axis] = home[axis];
     }
     begin_move(MoveKind::rapid);
-    motion_ = axes != 0 ? Motion::via_point : Motion::single;
-    via_point_pending_ = false;
-    todo_ |= todo_motion;
+    if (axes != 0)
+        steps_.add_move_via(via);
+    else
+        steps_.add_move();
     words_.take_axis_words();
     return true;
 }

@@ -42,9 +42,10 @@ std::size_t end_of_parameter(std::string_view text) {
 
 /// Uses the values after the assignments of the line and before its motion, as LinuxCNC.
 void Interpreter::show_values() {
-    shown_.clear();
+    std::vector<std::string>& shown = steps_.shown();
+    shown.clear();
     for (const Comment& comment : block().comments)
-        shown_.push_back(comment.values ? substitute_values(comment.text) : std::string());
+        shown.push_back(comment.values ? substitute_values(comment.text) : std::string());
 }
 
 /// A parameter without a value is shown as ######, as in LinuxCNC.
