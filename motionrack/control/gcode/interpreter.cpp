@@ -1,186 +1,176 @@
-// Converts one line of G-code from words to canonical calls: modal state, order of execution, pending calls.
+// Executes one line of G-code: the order of its words, and the state that they leave.
 #include <fmt/format.h>
 
-#include <bit>
-#include <cmath>
-#include <motionrack/control/gcode/codes.hpp>
+#include <motionrack/control/gcode/cutter_compensation.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/io_words.hpp>
 #include <motionrack/control/gcode/language/machine_parameters.hpp>
-#include <motionrack/control/gcode/scanner.hpp>
+#include <motionrack/control/gcode/lathe_words.hpp>
+#include <motionrack/control/gcode/machine_words.hpp>
+#include <motionrack/control/gcode/mode_words.hpp>
+#include <motionrack/control/gcode/motion_words.hpp>
+#include <motionrack/control/gcode/nonmodal_words.hpp>
+#include <utility>
 
 namespace motionrack::control::gcode {
 
 namespace {
 
-constexpr double largest_line_number = 9'999'999;
 /// Result of M66.
 constexpr int input_parameter = 5399;
 
 }  // namespace
 
-Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
-    travel_.start(settings);
-    modes_.start(settings.path_tolerance_mm, settings.start_in_g0);
-    offsets_.start(settings);
+Interpreter::Interpreter(const Settings& settings) {
+    state_.settings = settings;
+    state_.travel.start(settings);
+    state_.modes.start(settings.path_tolerance_mm, settings.start_in_g0);
+    state_.offsets.start(settings);
 }
 
 Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Language language) {
-    steps_.begin_line();
-    held_.begin_line();
-    words_.begin_line(number, language);
-    steps_.apply_end(modes_, offsets_);
+    state_.steps.begin_line();
+    state_.cutter.begin_line();
+    state_.words.begin_line(number, language);
+    state_.steps.apply_end(state_.modes, state_.offsets);
     const MachineParameters known(*this);
-    if (!words_.scan(text, {settings_.block_delete, language, &known}) || !evaluate()) {
-        steps_.clear();
-        return words_.problem_of(number);
+    if (!state_.words.scan(text, {state_.settings.block_delete, language, &known}) || !evaluate()) {
+        state_.steps.clear();
+        return state_.words.problem_of(number);
     }
     return {};
 }
 
 bool Interpreter::evaluate() {
-    modes_.begin_line();
-    offsets_.begin_line();
-    cutter_plan_.clear();
-    turning_.reset();
-    words_.begin_interpretation();
-    travel_.begin_line();
-    if (!check_values()) return false;
-    if (block().has_m(m_program) && !program_words()) return false;
-    if ((block().m_groups | (block().words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words())
-        return false;
-    if ((block().g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
-    if (next().cutter != CutterSide::off && !cutter_allows()) return false;
-    if (block().has('F')) apply_feed();
-    if (block().has_g(g_nonmodal) && !nonmodal()) return false;
-    if (!motion()) return false;
-    if (block().has_m(m_io) && !ports()) return false;
-    if (steps_.ends_program() && next().cutter != CutterSide::off && !end_cutter()) return false;
-    if (held_.full() && !may_wait()) return false;
-    if (!words_.need_all_used(next().motion)) return false;
-    if (!block().comments.empty()) steps_.add_comments();
+    state_.modes.begin_line();
+    state_.offsets.begin_line();
+    state_.cutter.begin_interpretation();
+    state_.contour.cycle.reset();
+    state_.words.begin_interpretation();
+    state_.travel.begin_line();
+    if (!read_words()) return false;
+    if (!block().comments.empty()) state_.steps.add_comments();
     if (!block().assignments.empty() && !assign()) return false;
     if (!block().comments.empty()) show_values();
-    if (block().has_m(m_state)) modes_.save(block().m[m_state], static_cast<std::size_t>(parameters_.level()));
-    if (block().has_m(m_io) && block().m[m_io] == 66) parameters_.set(input_parameter, steps_.port_value());
+    if (block().has_m(m_state))
+        state_.modes.save(block().m[m_state], static_cast<std::size_t>(state_.parameters.level()));
+    if (block().has_m(m_io) && block().m[m_io] == 66) state_.parameters.set(input_parameter, state_.steps.port_value());
     commit();
     return true;
+}
+
+/// Reads the words in their order of execution.
+bool Interpreter::read_words() {
+    const ModalState& next = state_.modes.next();
+    if (!ModeWords(state_).check()) return false;
+    if (block().has_m(m_program) && !MachineWords(state_).check_program()) return false;
+    if ((block().m_groups | (block().words & (letter_bit('S') | letter_bit('T')))) != 0 &&
+        !MachineWords(state_).apply())
+        return false;
+    if ((block().g_groups & ~(1u << g_motion)) != 0 && !ModeWords(state_).apply()) return false;
+    if (next.cutter != CutterSide::off && !CutterCompensation(state_).allows()) return false;
+    if (block().has('F')) ModeWords(state_).apply_feed();
+    if (block().has_g(g_nonmodal) && !NonmodalWords(state_).read()) return false;
+    if (!MotionWords(state_).read()) return false;
+    if (block().has_m(m_io) && !IoWords(state_).read()) return false;
+    if (state_.steps.ends_program() && next.cutter != CutterSide::off && !CutterCompensation(state_).end_program())
+        return false;
+    if (state_.cutter.is_full() && !CutterCompensation(state_).may_wait()) return false;
+    return state_.words.need_all_used(next.motion);
 }
 
 /// Executes all assignments, or none if a name does not fit.
 bool Interpreter::assign() {
     std::size_t global = 0, local = 0;
     for (const auto& [parameter, value] : block().assignments) {
-        if (parameter.number > 0 || parameters_.named(parameter.name)) continue;
-        if (++(is_global(parameter.name) ? global : local) > parameters_.capacity_for(parameter.name)) {
-            return words_.fail_at(
+        if (parameter.number > 0 || state_.parameters.named(parameter.name)) continue;
+        if (++(is_global(parameter.name) ? global : local) > state_.parameters.capacity_for(parameter.name)) {
+            return state_.words.fail_at(
                 block().text.find('#'), GrblStatus::unsupported,
                 fmt::format("#<{}> is one named parameter too many; there may be {}", parameter.name, max_names));
         }
     }
     for (const auto& [parameter, value] : block().assignments) {
         if (parameter.number > 0)
-            parameters_.set(parameter.number, value);
+            state_.parameters.set(parameter.number, value);
         else
-            parameters_.set(parameter.name, value);
+            state_.parameters.set(parameter.name, value);
     }
     return true;
-}
-
-bool Interpreter::check_values() {
-    constexpr std::uint32_t not_negative = letter_bit('F') | letter_bit('N') | letter_bit('P') | letter_bit('S') |
-                                           letter_bit('T') | letter_bit('L') | letter_bit('Q');
-    for (std::uint32_t left = block().words & not_negative; left != 0; left &= left - 1) {
-        const int index = std::countr_zero(left);
-        if (block().value[index] >= 0) continue;
-        const char letter = static_cast<char>('A' + index);
-        if ((letter == 'P' || letter == 'Q') && negative_handles()) continue;
-        if (letter == 'Q' && block().has_m(m_io) && block().m[m_io] >= 67) continue;  // a value
-        return words_.fail_word(letter, GrblStatus::negative_value,
-                                fmt::format("{} is negative; {} must be 0 or more", words_.word_text(letter), letter));
-    }
-    if (const std::uint32_t absent = block().words & axis_words & ~travel_.present_words(); absent != 0) {
-        const char letter = static_cast<char>('A' + std::countr_zero(absent));
-        std::string present;
-        for (const char axis : axis_letters) {
-            if ((travel_.present_words() & letter_bit(axis)) != 0)
-                present += present.empty() ? std::string(1, axis) : fmt::format(" {}", axis);
-        }
-        return words_.fail_word(
-            letter, GrblStatus::unsupported,
-            fmt::format("{}: this machine has no {} axis (it has {}); take the word out or set the axis up",
-                        words_.word_text(letter), letter, present.empty() ? "none" : present));
-    }
-    if (block().has('N') && (block()['N'] > largest_line_number || block()['N'] != std::floor(block()['N']))) {
-        return words_.fail_word(
-            'N', GrblStatus::bad_line_number,
-            fmt::format("{}: line numbers are integers from N0 to N9999999", words_.word_text('N')));
-    }
-    if (block().has('T')) {
-        if (!words_.need_integer('T', 0, 1e9, "a tool number")) return false;
-        if (block()['T'] > largest_tool)
-            return words_.fail_word('T', GrblStatus::value_too_large,
-                                    fmt::format("{}: tools are T0 to T99999", words_.word_text('T')));
-        if (!require_tool('T', static_cast<std::int32_t>(block()['T']))) return false;
-    }
-    return true;
-}
-
-bool Interpreter::apply_modes() {
-    if (block().has_g(g_units)) next().inch = block().g[g_units] == 200;
-    if (block().has_g(g_feed_mode)) {
-        const bool inverse = block().g[g_feed_mode] == 930;
-        if (inverse != next().inverse_time) next().feed = next().feed_rotary = 0;
-        next().inverse_time = inverse;
-    }
-    if (block().has_g(g_plane)) next().plane = static_cast<std::uint8_t>((block().g[g_plane] - 170) / 10);
-    if (block().has_g(g_distance)) next().incremental = block().g[g_distance] == 910;
-    if (block().has_g(g_arc_distance)) next().arc_absolute = block().g[g_arc_distance] == 901;
-    if (block().has_g(g_retract)) next().retract_to_r = block().g[g_retract] == 990;
-    if (block().has_g(g_cutter) && !cutter()) return false;
-    if (block().has_g(g_tool_length) && !tool_length()) return false;
-    if (block().has_g(g_system)) {
-        const int code = block().g[g_system];
-        next().system = static_cast<std::uint8_t>(code > 590 ? code - 585 : (code - 540) / 10);
-        edit_frame().activate(next().system);
-    }
-    if (block().has_g(g_path)) {
-        const int code = block().g[g_path];
-        next().path = code == 610   ? PathControl::exact_path
-                      : code == 611 ? PathControl::exact_stop
-                                    : PathControl::continuous;
-        if (code == 640) {
-            next().tolerance_mm = settings_.path_tolerance_mm;
-            const bool others =
-                block().has_g(g_nonmodal) && (block().g[g_nonmodal] == 40 || block().g[g_nonmodal] == 100);
-            if (block().has('P') && !others) {
-                next().tolerance_mm = scaled('P');
-                words_.use(letter_bit('P'));
-            }
-        }
-    }
-    return true;
-}
-
-void Interpreter::apply_feed() {
-    if (next().inverse_time) {
-        next().feed = block()['F'] / 60;
-    } else {
-        next().feed = scaled('F') / 60;
-        next().feed_rotary = block()['F'] / 60;
-    }
 }
 
 void Interpreter::commit() {
-    steps_.commit(position(), next().feed_override);
-    travel_.commit();
-    modes_.commit();
-    offsets_.commit();
-    if (modes().cutter != CutterSide::off || off_path_) commit_cutter();
-    if (steps_.is_probing()) store_probe_result(true, travel_.position());
+    state_.steps.commit(position(), state_.modes.next().feed_override);
+    state_.travel.commit();
+    state_.modes.commit();
+    state_.offsets.commit();
+    if (modes().cutter != CutterSide::off || state_.cutter.is_off_path()) CutterCompensation(state_).commit();
+    if (state_.steps.is_probing()) store_probe_result(true, state_.travel.position());
+}
+
+Outcome<void> Interpreter::finish() {
+    return CutterCompensation(state_).finish();
 }
 
 Point Interpreter::program_position() const {
     return frame().to_program(position());
+}
+
+/// Stores #5061 .. #5066 in the coordinates and units of the probing line, and #5070.
+void Interpreter::store_probe_result(bool hit, const Point& at) {
+    constexpr int first = 5061, success = 5070;
+    const Point place = frame().to_program(at);
+    for (int axis = 0; axis < axis_count; ++axis)
+        state_.parameters.set(first + axis, place[axis] / (axis < 3 && modes().inch ? 25.4 : 1.0));
+    for (int other = first + axis_count; other < success; ++other) state_.parameters.set(other, 0);
+    state_.parameters.set(success, hit ? 1 : 0);
+}
+
+void Interpreter::set_probe_result(bool hit, const Point& at, const Point& stopped_at) {
+    state_.offsets.set_probe_result(hit, at);
+    store_probe_result(hit, at);
+    resync_position(stopped_at);
+}
+
+void Interpreter::resync_position(const Point& position) {
+    CutterCompensation(state_).resync_position(position);
+}
+
+bool Interpreter::end_call(std::optional<double> returned) {
+    const auto level = static_cast<std::size_t>(state_.parameters.level());
+    state_.parameters.leave(returned);
+    const std::optional<ModalState> kept = state_.modes.leave_call(level);
+    if (!kept) return true;
+    if (modes().cutter != CutterSide::off && !state_.modes.can_stay_beside(*kept)) return false;
+    state_.modes.begin_line();
+    state_.offsets.begin_line();
+    MachineWords(state_).restore(*kept);
+    state_.modes.commit();
+    state_.offsets.commit();
+    return true;
+}
+
+Interpreter Interpreter::contour_interpreter() const {
+    Interpreter reader = *this;
+    InterpreterState& state = reader.state_;
+    state.travel.remove_limits();
+    state.settings.probe = state.settings.point_to_point = false;
+    state.contour.cycle.reset();
+    state.steps.clear();
+    Point start = state_.travel.position();
+    start[2] = state_.contour.cycle->start.first;
+    start[0] = state_.contour.cycle->start.second;
+    state.travel.move_to(start);
+    return reader;
+}
+
+Outcome<void> Interpreter::turn(std::vector<ContourSegment> contour) {
+    return LatheWords(state_).turn(std::move(contour));
+}
+
+void Interpreter::reset_after_program() {
+    state_.modes.enable_overrides();
+    state_.offsets.reset_rotation(modes().system);
 }
 
 }  // namespace motionrack::control::gcode

@@ -1,60 +1,58 @@
-// Offsets of program coordinates: work offsets and rotation (G10 L2, L20), the tool table (G10 L1, L10, L11) and tool
-// lengths (G43, G43.1, G43.2, G49).
+// Offsets of program coordinates.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <motionrack/control/gcode/codes.hpp>
-#include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/offset_words.hpp>
 
 namespace motionrack::control::gcode {
 
-bool Interpreter::set_offsets() {
+bool OffsetWords::set_offsets() {
     const std::size_t column = block().g_column[g_nonmodal];
-    const bool by_sender = words_.language() == Language::words;
+    const bool by_sender = language() == Language::words;
     if (!block().has('L')) {
-        return words_.fail_at(
-            column, GrblStatus::word_missing,
-            "L word missing: write G10 L2 P1 X.. to set G54's offset, G10 L20 P1 X.. to set the current "
-            "position in G54");
+        return fail_at(column, GrblStatus::word_missing,
+                       "L word missing: write G10 L2 P1 X.. to set G54's offset, G10 L20 P1 X.. to set the current "
+                       "position in G54");
     }
     const bool of_tool = !by_sender && (block()['L'] == 1 || block()['L'] == 10 || block()['L'] == 11);
     if (!block().has('P')) {
-        return words_.fail_at(column, GrblStatus::word_missing,
-                              of_tool ? "P word missing: G10 L1, L10 and L11 need the number of a tool, e.g. P3"
-                                      : "P word missing: G10 needs P1 (G54) to P6 (G59), or P0 for the active system");
+        return fail_at(column, GrblStatus::word_missing,
+                       of_tool ? "P word missing: G10 L1, L10 and L11 need the number of a tool, e.g. P3"
+                               : "P word missing: G10 needs P1 (G54) to P6 (G59), or P0 for the active system");
     }
     if (of_tool) return edit_tool(static_cast<int>(block()['L']));
     if (block()['L'] != 2 && block()['L'] != 20) {
-        if (!words_.need_integer('L', 0, 1e9, "what G10 sets")) return false;
-        return words_.fail_word(
+        if (!need_integer('L', 0, 1e9, "what G10 sets")) return false;
+        return fail_word(
             'L', GrblStatus::unsupported,
             fmt::format("G10 {} is not supported; G10 L2 sets an offset, G10 L20 sets the position in a system{}",
-                        words_.word_text('L'), by_sender ? "" : ", G10 L1, L10 and L11 set a tool's length"));
+                        word_text('L'), by_sender ? "" : ", G10 L1, L10 and L11 set a tool's length"));
     }
-    if (!words_.need_integer('P', 0, 1e9, "a work system (0 the active one, 1 G54 .. 6 G59)")) return false;
+    if (!need_integer('P', 0, 1e9, "a work system (0 the active one, 1 G54 .. 6 G59)")) return false;
     if (block()['P'] > (by_sender ? grbl_work_system_count : work_offset_count)) {
-        return words_.fail_word(
+        return fail_word(
             'P', GrblStatus::no_such_system,
             fmt::format("{}: the machine has {} work systems, P1 (G54) to P6 (G59), {}and P0 for the active one",
-                        words_.word_text('P'), by_sender ? "six" : "nine",
-                        by_sender ? "" : "P7 (G59.1) to P9 (G59.3), "));
+                        word_text('P'), by_sender ? "six" : "nine", by_sender ? "" : "P7 (G59.1) to P9 (G59.3), "));
     }
-    words_.use(letter_bit('L') | letter_bit('P'));
+    use(letter_bit('L') | letter_bit('P'));
     const int number = static_cast<int>(block()['P']);
     return set_work_offset(number == 0 ? next().system : number - 1, block()['L'] == 20);
 }
 
-bool Interpreter::set_work_offset(int system, bool from_position) {
-    const bool turns = block().has('R') && !from_position && words_.language() != Language::words;
+bool OffsetWords::set_work_offset(int system, bool from_position) {
+    const bool turns = block().has('R') && !from_position && language() != Language::words;
     if ((block().words & axis_words) == 0 && !turns) {
-        return words_.fail_at(block().g_column[g_nonmodal], GrblStatus::no_axis_words,
-                              "axis words missing: G10 needs at least one; write e.g. G10 L20 P1 X0 Y0");
+        return fail_at(block().g_column[g_nonmodal], GrblStatus::no_axis_words,
+                       "axis words missing: G10 needs at least one; write e.g. G10 L20 P1 X0 Y0");
     }
     WorkFrame& frame = edit_frame();
     const auto place = static_cast<std::size_t>(system);
     if (turns) {
         frame.rotation_deg[place] = block()['R'];
-        words_.use(letter_bit('R'));
+        use(letter_bit('R'));
     }
     if (from_position && frame.rotation_deg[place] != 0) {
         shift_turned(frame, system);
@@ -63,18 +61,18 @@ bool Interpreter::set_work_offset(int system, bool from_position) {
             if ((block().words & letter_bit(axis_letters[axis])) == 0) continue;
             const double value = block().value[axis_letter(axis)] * scale_of(axis);
             const double others = frame.g92[axis] + frame.tool[axis];
-            frame.work[place][axis] = from_position ? travel_.position()[axis] - others - value : value;
+            frame.work[place][axis] = from_position ? travel().position()[axis] - others - value : value;
         }
     }
     frame.activate(next().system);
-    words_.take_axis_words();
+    take_axis_words();
     return true;
 }
 
 /// Returns the change of an offset, along the axes of the frame in machine coordinates, that makes the current position
 /// read as the words.
-Point Interpreter::shift_to_words(const WorkFrame& frame) const {
-    const Point now = frame.to_program(travel_.position());
+Point OffsetWords::shift_to_words(const WorkFrame& frame) const {
+    const Point now = frame.to_program(travel().position());
     Point by = {};
     for (int axis = 0; axis < axis_count; ++axis) {
         if ((block().words & letter_bit(axis_letters[axis])) == 0) continue;
@@ -84,7 +82,7 @@ Point Interpreter::shift_to_words(const WorkFrame& frame) const {
 }
 
 /// G10 L20 of a rotated system.
-void Interpreter::shift_turned(WorkFrame& frame, int system) {
+void OffsetWords::shift_turned(WorkFrame& frame, int system) {
     frame.activate(system);
     const Point by = shift_to_words(frame);
     for (int axis = 0; axis < axis_count; ++axis) frame.work[static_cast<std::size_t>(system)][axis] += by[axis];
@@ -92,17 +90,16 @@ void Interpreter::shift_turned(WorkFrame& frame, int system) {
 
 /// G10 L1 sets the offsets of a tool as written; L10 and L11 set them so that the current tool position equals the
 /// words. L10 uses the active system, L11 uses G59.3.
-bool Interpreter::edit_tool(int what) {
-    if (!words_.need_integer('P', 1, largest_tool, "the number of a tool")) return false;
-    words_.use(letter_bit('L') | letter_bit('P'));
+bool OffsetWords::edit_tool(int what) {
+    if (!need_integer('P', 1, largest_tool, "the number of a tool")) return false;
+    use(letter_bit('L') | letter_bit('P'));
     Tool tool;
     tool.number = static_cast<std::int32_t>(block()['P']);
     if (const Tool* known = tools().find(tool.number)) {
         tool = *known;
     } else if (tools().tools().size() >= max_tools) {
-        return words_.fail_word(
-            'P', GrblStatus::unsupported,
-            fmt::format("{}: the tool table has {} tools already", words_.word_text('P'), max_tools));
+        return fail_word('P', GrblStatus::unsupported,
+                         fmt::format("{}: the tool table has {} tools already", word_text('P'), max_tools));
     }
     if (what == 1) {
         for (int axis = 0; axis < axis_count; ++axis)
@@ -117,31 +114,31 @@ bool Interpreter::edit_tool(int what) {
         for (int axis = 0; axis < axis_count; ++axis) tool.offset[axis] += by[axis];
     }
     if (!edit_tool_shape(tool)) return false;
-    offsets_.edit_tool(tool);
-    words_.take_axis_words();
+    offsets().edit_tool(tool);
+    take_axis_words();
     return true;
 }
 
-bool Interpreter::edit_tool_shape(Tool& tool) {
+bool OffsetWords::edit_tool_shape(Tool& tool) {
     const auto take = [this](char letter, double& to, double scale) {
         if (!block().has(letter)) return;
         to = block()[letter] * scale;
-        words_.use(letter_bit(letter));
+        use(letter_bit(letter));
     };
     if (block().has('R') && block()['R'] < 0)
-        return words_.fail_word('R', GrblStatus::negative_value,
-                                fmt::format("{}: the radius of a tool is 0 or more", words_.word_text('R')));
+        return fail_word('R', GrblStatus::negative_value,
+                         fmt::format("{}: the radius of a tool is 0 or more", word_text('R')));
     take('R', tool.diameter_mm, 2 * scale_of(0));
     take('I', tool.front_angle, 1);
     take('J', tool.back_angle, 1);
     if (!block().has('Q')) return true;
-    if (!words_.need_integer('Q', 0, 9, "the orientation of a tool")) return false;
+    if (!need_integer('Q', 0, 9, "the orientation of a tool")) return false;
     tool.orientation = static_cast<std::int32_t>(block()['Q']);
-    words_.use(letter_bit('Q'));
+    use(letter_bit('Q'));
     return true;
 }
 
-bool Interpreter::tool_length() {
+bool OffsetWords::tool_length() {
     const int code = block().g[g_tool_length];
     if (code == 490) {
         WorkFrame& frame = edit_frame();
@@ -155,18 +152,16 @@ bool Interpreter::tool_length() {
 }
 
 /// G43.1, and G43.2 without H: the length is in the words of the line.
-bool Interpreter::tool_length_of_words(bool adds) {
-    const std::uint32_t others =
-        words_.language() == Language::words ? block().words & axis_words & ~letter_bit('Z') : 0;
+bool OffsetWords::tool_length_of_words(bool adds) {
+    const std::uint32_t others = language() == Language::words ? block().words & axis_words & ~letter_bit('Z') : 0;
     if (others != 0) {
         const char letter = static_cast<char>('A' + std::countr_zero(others));
-        return words_.fail_word(
-            letter, GrblStatus::tool_length_axis,
-            fmt::format("{}: the tool length is along Z only; write e.g. G43.1 Z12.5 on a line of its own",
-                        words_.word_text(letter)));
+        return fail_word(letter, GrblStatus::tool_length_axis,
+                         fmt::format("{}: the tool length is along Z only; write e.g. G43.1 Z12.5 on a line of its own",
+                                     word_text(letter)));
     }
     if ((block().words & axis_words) == 0) {
-        return words_.fail_at(
+        return fail_at(
             block().g_column[g_tool_length], GrblStatus::no_axis_words,
             adds ? "H word missing: G43.2 needs the number of a tool, or the length to add; write e.g. G43.2 H3"
                  : "Z word missing: G43.1 needs the length of the tool; write e.g. G43.1 Z12.5");
@@ -178,34 +173,21 @@ bool Interpreter::tool_length_of_words(bool adds) {
         frame.tool[axis] = adds ? frame.tool[axis] + value : value;
     }
     frame.activate(next().system);
-    words_.take_axis_words();
+    take_axis_words();
     return true;
 }
 
-/// Returns null after reporting a missing tool. The error points to the word that names it or, for the tool in the
-/// spindle, to the code.
-const Tool* Interpreter::tool_of_table(std::int32_t number, char letter, GroupG code) {
-    const Tool* tool = tools().find(number);
-    const bool named = block().has(letter);
-    if (!tool) {
-        words_.fail_at(named ? block().column[letter_index(letter)] : block().g_column[code], GrblStatus::unsupported,
-                       fmt::format("{}: the tool table has no tool {}; write it into the table",
-                                   named ? words_.word_text(letter) : name_of_g(block().g[code]), number));
-    }
-    return tool;
-}
-
 /// G43 and G43.2 with the lengths of the table; G43 without H, or with H0, selects the tool in the spindle.
-bool Interpreter::tool_length_of_table(bool adds) {
+bool OffsetWords::tool_length_of_table(bool adds) {
     const std::size_t column = block().g_column[g_tool_length];
     std::int32_t number = std::max(0, next().tool_loaded);
     if (block().has('H')) {
-        if (!words_.need_integer('H', 0, largest_tool, "a tool number")) return false;
-        words_.use(letter_bit('H'));
+        if (!need_integer('H', 0, largest_tool, "a tool number")) return false;
+        use(letter_bit('H'));
         if (block()['H'] != 0) number = static_cast<std::int32_t>(block()['H']);
     }
     if (number != 0 && tools().empty()) {
-        return words_.fail_at(
+        return fail_at(
             column, GrblStatus::unsupported,
             fmt::format("{}: the program has no tool table; give the program one (--tools FILE, tools= in Python), "
                         "or write the tool's length itself, e.g. G43.1 Z12.5",

@@ -42,7 +42,7 @@ std::size_t end_of_parameter(std::string_view text) {
 
 /// Uses the values after the assignments of the line and before its motion, as LinuxCNC.
 void Interpreter::show_values() {
-    std::vector<std::string>& shown = steps_.shown();
+    std::vector<std::string>& shown = state_.steps.shown();
     shown.clear();
     for (const Comment& comment : block().comments)
         shown.push_back(comment.values ? substitute_values(comment.text) : std::string());

@@ -1,10 +1,11 @@
-// G40, G41, G42, G41.1, G42.1: converts the moves of a line to moves of the cutter centre; checks for conflicts.
+// Moves of the cutter centre.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <motionrack/control/gcode/codes.hpp>
-#include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/cutter_compensation.hpp>
 #include <motionrack/control/gcode/plane_point.hpp>
+#include <string>
 
 namespace motionrack::control::gcode {
 
@@ -14,30 +15,29 @@ constexpr double largest_cutter_mm = 1000;
 
 }  // namespace
 
-/// G40 .. G42.1.
-bool Interpreter::cutter() {
+bool CutterCompensation::select() {
     const std::int16_t code = block().g[g_cutter];
     const std::size_t column = block().g_column[g_cutter];
     if (code == 400) {
-        if (compensating_ && !end_waiting_path()) return false;
+        if (state().compensating_ && !end_waiting_path()) return false;
         next().cutter = CutterSide::off;
         return true;
     }
     if (next().cutter != CutterSide::off) {
-        return words_.fail_at(
+        return fail_at(
             column, GrblStatus::unsupported,
             fmt::format("{}: cutter compensation is on already ({} of the contour); write G40 and a straight "
                         "move before it",
                         name_of_g(code), next().cutter == CutterSide::left ? "left" : "right"));
     }
-    if (settings_.point_to_point) {
-        return words_.fail_at(
+    if (settings().point_to_point) {
+        return fail_at(
             column, GrblStatus::unsupported,
             fmt::format("{}: the axes of this rack position one by one, so cutter compensation is not possible",
                         name_of_g(code)));
     }
     double diameter = 0;
-    if (!cutter_diameter(diameter)) return false;
+    if (!diameter_of_words(diameter)) return false;
     const bool left = (code / 10 == 41) == (diameter >= 0);
     next().cutter = left ? CutterSide::left : CutterSide::right;
     next().cutter_radius_mm = std::fabs(diameter) / 2;
@@ -45,30 +45,30 @@ bool Interpreter::cutter() {
 }
 
 /// Reads the D word in mm; a negative diameter swaps the side.
-bool Interpreter::cutter_diameter(double& diameter) {
+bool CutterCompensation::diameter_of_words(double& diameter) {
     const std::int16_t code = block().g[g_cutter];
     const std::size_t column = block().g_column[g_cutter];
-    words_.use(letter_bit('D'));
+    use(letter_bit('D'));
     if (code % 10 != 0) {
         if (!block().has('D')) {
-            return words_.fail_at(
+            return fail_at(
                 column, GrblStatus::word_missing,
                 fmt::format("D word missing: {0} needs the cutter's diameter; write e.g. {0} D6", name_of_g(code)));
         }
         diameter = scaled('D');
     } else {
         if (tools().empty()) {
-            return words_.fail_at(
+            return fail_at(
                 column, GrblStatus::unsupported,
                 fmt::format("{0}: the program has no tool table to take the diameter from; give the program one "
                             "(--tools FILE, tools= in Python), or write it out, e.g. {0}.1 D6",
                             name_of_g(code)));
         }
-        if (block().has('D') && !words_.need_integer('D', 0, largest_tool, "the number of a tool")) return false;
+        if (block().has('D') && !need_integer('D', 0, largest_tool, "the number of a tool")) return false;
         const bool of_spindle = !block().has('D') || block()['D'] == 0;
         const std::int32_t number = of_spindle ? next().tool_loaded : static_cast<std::int32_t>(block()['D']);
         if (number <= 0) {
-            return words_.fail_at(
+            return fail_at(
                 column, GrblStatus::word_missing,
                 fmt::format("{0}: no tool is in the spindle; write e.g. {0} D1, or T1 M6 before it", name_of_g(code)));
         }
@@ -77,15 +77,14 @@ bool Interpreter::cutter_diameter(double& diameter) {
         diameter = tool->diameter_mm;
     }
     if (std::fabs(diameter) <= largest_cutter_mm) return true;
-    return words_.fail_at(
+    return fail_at(
         block().has('D') ? block().column[letter_index('D')] : column, GrblStatus::value_too_large,
         fmt::format("a cutter of {:.6g} mm: the largest diameter is {:.6g} mm", diameter, largest_cutter_mm));
 }
 
-/// Checks for changes that compensation does not allow.
-bool Interpreter::cutter_allows() {
+bool CutterCompensation::allows() {
     const auto forbid = [&](std::size_t column, std::string_view what) {
-        return words_.fail_at(
+        return fail_at(
             column, GrblStatus::axis_conflict,
             fmt::format("{} while cutter compensation is on; write G40 and a straight move before it", what));
     };
@@ -101,11 +100,10 @@ bool Interpreter::cutter_allows() {
     if (was_on && next().inch != modes().inch) return forbid(column_of(g_units), "the units cannot change");
     if (was_on && next().system != modes().system) return forbid(column_of(g_system), "the work offset cannot change");
     if (frame_now().is_rotated && next().plane != 0) {
-        return words_.fail_at(
-            column_of(g_cutter), GrblStatus::unsupported,
-            fmt::format("the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation "
-                        "is possible in G17 only",
-                        frame_now().rotation_deg[next().system]));
+        return fail_at(column_of(g_cutter), GrblStatus::unsupported,
+                       fmt::format("the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation "
+                                   "is possible in G17 only",
+                                   frame_now().rotation_deg[next().system]));
     }
     if (was_on && block().has_g(g_tool_length) && frame_now().tool != frame().tool)
         return forbid(block().g_column[g_tool_length], "the tool length cannot change");
@@ -121,45 +119,45 @@ bool Interpreter::cutter_allows() {
 }
 
 /// Ends the waiting move, the last compensated one, without a corner.
-bool Interpreter::end_waiting_path() {
-    cutter_plan_.joins = true;
-    cutter_plan_.last = cutter_path_;
-    return trim(cutter_plan_.last, cutter_from_, cutter_path_.end) || gouges(cutter_line_);
+bool CutterCompensation::end_waiting_path() {
+    state().plan_.joins = true;
+    state().plan_.last = state().path_;
+    return trim(state().plan_.last, state().from_, state().path_.end) || gouges(state().line_);
 }
 
-bool Interpreter::gouges(std::int32_t line) {
-    return words_.fail_at(
-        words_.error_column(), GrblStatus::bad_target,
+bool CutterCompensation::gouges(std::int32_t line) {
+    return fail_at(
+        error_column(), GrblStatus::bad_target,
         fmt::format("the cutter (radius {:.6g} mm) would have to move backwards along the move of line {}, which is "
                     "too short between its neighbours: it would cut into the contour; take a smaller cutter or "
                     "leave the move out",
                     modes().cutter_radius_mm, line));
 }
 
-/// Computes the offset path of the move from straight() or arc().
-bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) {
-    const Move& move = steps_.moving().move;
+/// Computes the offset path of the move from StraightWords or ArcWords.
+bool CutterCompensation::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) {
+    const Move& move = steps().moving().move;
     const double radius = next().cutter_radius_mm;
     const double offset = next().cutter == CutterSide::left ? radius : -radius;
     const PlanePoint centre = {move.centre_first, move.centre_second};
     const bool is_arc = move.kind == MoveKind::arc;
-    if (!compensating_ && length({to.first - from.first, to.second - from.second}) <= radius) {
-        return words_.fail_at(
-            words_.error_column(), GrblStatus::bad_target,
+    if (!state().compensating_ && length({to.first - from.first, to.second - from.second}) <= radius) {
+        return fail_at(
+            error_column(), GrblStatus::bad_target,
             fmt::format("the first move with cutter compensation must be longer in its plane than the cutter's "
                         "radius of {:.6g} mm; begin farther away",
                         radius));
     }
     if (!is_arc) {
-        path = compensating_ ? offset_line(from, to, offset) : lead_in_line(from, to, offset);
+        path = state().compensating_ ? offset_line(from, to, offset) : lead_in_line(from, to, offset);
         return true;
     }
-    if (compensating_ ? offset_arc(from, to, centre, move.turns, offset, path)
-                      : lead_in_arc(from, to, centre, move.turns, offset, path))
+    if (state().compensating_ ? offset_arc(from, to, centre, move.turns, offset, path)
+                              : lead_in_arc(from, to, centre, move.turns, offset, path))
         return true;
     const double arc_radius = length({from.first - centre.first, from.second - centre.second});
-    return words_.fail_at(
-        words_.error_column(), GrblStatus::bad_radius,
+    return fail_at(
+        error_column(), GrblStatus::bad_radius,
         arc_radius <= radius
             ? fmt::format("the cutter (radius {:.6g} mm) does not fit into this arc of radius {:.6g} mm; take a "
                           "smaller cutter",
@@ -167,187 +165,164 @@ bool Interpreter::path_beside(PlanePoint from, PlanePoint to, CutterPath& path) 
             : std::string("no lead-in arc reaches the offset of this arc; begin with a straight move"));
 }
 
-/// Converts the programmed move to that of the cutter, which waits until the next one is known.
-bool Interpreter::compensate() {
-    Move& move = steps_.moving().move;
+bool CutterCompensation::compensate() {
+    Move& move = steps().moving().move;
     const auto& axes = plane_axes[next().plane];
-    const PlanePoint from = {travel_.position()[axes[0]], travel_.position()[axes[1]]};
-    const PlanePoint to = {travel_.end()[axes[0]], travel_.end()[axes[1]]};
+    const PlanePoint from = {travel().position()[axes[0]], travel().position()[axes[1]]};
+    const PlanePoint to = {travel().end()[axes[0]], travel().end()[axes[1]]};
     if (move.kind != MoveKind::arc && from.first == to.first && from.second == to.second) {
-        if (!compensating_) return !off_path_ || reaches_contour();
-        move.end[axes[0]] = cutter_path_.end.first;
-        move.end[axes[1]] = cutter_path_.end.second;
+        if (!state().compensating_) return !state().off_path_ || reaches_contour();
+        move.end[axes[0]] = state().path_.end.first;
+        move.end[axes[1]] = state().path_.end.second;
         return true;
     }
-    CutterPath& path = cutter_plan_.path;
+    CutterPath& path = state().plan_.path;
     if (!path_beside(from, to, path)) return false;
-    cutter_plan_.begins = true;
-    cutter_plan_.from = off_path_ ? PlanePoint{at_[axes[0]], at_[axes[1]]} : from;
-    if (compensating_ && !join(from)) return false;
+    state().plan_.begins = true;
+    state().plan_.from = state().off_path_ ? PlanePoint{state().at_[axes[0]], state().at_[axes[1]]} : from;
+    if (state().compensating_ && !join(from)) return false;
     move.end[axes[0]] = path.end.first;
     move.end[axes[1]] = path.end.second;
     move.centre_first = path.centre.first;
     move.centre_second = path.centre.second;
     if (path.arc && !arc_within_limits(path.start, path.end, path.centre, path.turns)) return off_limits();
-    return (reach(axes[0], path.end.first, words_.error_column()) &&
-            reach(axes[1], path.end.second, words_.error_column())) ||
+    return (reach(axes[0], path.end.first, error_column()) && reach(axes[1], path.end.second, error_column())) ||
            off_limits();
 }
 
-/// Checks the return from the offset path to the contour, which may be outside the limits.
-bool Interpreter::reaches_contour() {
-    for (int axis = 0; axis < 3; ++axis)
-        if (travel_.end()[axis] != travel_.position()[axis] || travel_.end()[axis] != at_[axis])
-            if (!reach(axis, travel_.end()[axis], words_.error_column())) return false;
-    return true;
-}
-
-bool Interpreter::off_limits() {
-    words_.prefix_problem("at the offset contour of the cutter's centre: ");
+bool CutterCompensation::off_limits() {
+    in_.words.prefix_problem("at the offset contour of the cutter's centre: ");
     return false;
 }
 
 /// Joins the waiting move to the move of this line.
-bool Interpreter::join(PlanePoint corner) {
+bool CutterCompensation::join(PlanePoint corner) {
     const auto& axes = plane_axes[next().plane];
     const double offset = next().cutter == CutterSide::left ? next().cutter_radius_mm : -next().cutter_radius_mm;
-    const CutterPath& path = cutter_plan_.path;
-    const CornerJoinPoint junction = join_corner(cutter_path_, path, corner, offset);
+    const CutterPath& path = state().plan_.path;
+    const CornerJoinPoint junction = join_corner(state().path_, path, corner, offset);
     if (junction.kind == CornerJoin::none) {
-        return words_.fail_at(
-            words_.error_column(), GrblStatus::bad_target,
+        return fail_at(
+            error_column(), GrblStatus::bad_target,
             fmt::format("the cutter (radius {:.6g} mm) does not fit into the corner between line {} and this one; "
                         "take a smaller cutter",
-                        next().cutter_radius_mm, cutter_line_));
+                        next().cutter_radius_mm, state().line_));
     }
-    cutter_plan_.joins = true;
-    cutter_plan_.last = cutter_path_;
-    if (!trim(cutter_plan_.last, cutter_from_, junction.at)) return gouges(cutter_line_);
-    if (!reach(axes[0], junction.at.first, words_.error_column()) ||
-        !reach(axes[1], junction.at.second, words_.error_column()))
+    state().plan_.joins = true;
+    state().plan_.last = state().path_;
+    if (!trim(state().plan_.last, state().from_, junction.at)) return gouges(state().line_);
+    if (!reach(axes[0], junction.at.first, error_column()) || !reach(axes[1], junction.at.second, error_column()))
         return off_limits();
-    cutter_plan_.around = junction.kind == CornerJoin::around;
-    cutter_plan_.from = cutter_plan_.around ? path.start : junction.at;
-    if (!cutter_plan_.around) return true;
+    state().plan_.around = junction.kind == CornerJoin::around;
+    state().plan_.from = state().plan_.around ? path.start : junction.at;
+    if (!state().plan_.around) return true;
     // Before a rapid the corner is connected straight, above the workpiece.
-    Move& arc = cutter_plan_.arc;
-    arc = steps_.moving().move;
+    Move& arc = state().plan_.arc;
+    arc = steps().moving().move;
     if (arc.kind != MoveKind::rapid) arc.kind = MoveKind::arc;
     arc.first = axes[0];
     arc.second = axes[1];
     arc.turns = offset > 0 ? -1 : 1;
     arc.centre_first = corner.first;
     arc.centre_second = corner.second;
-    arc.end = travel_.position();
+    arc.end = travel().position();
     arc.end[axes[0]] = path.start.first;
     arc.end[axes[1]] = path.start.second;
-    if (arc.kind == MoveKind::arc && !arc_within_limits(cutter_path_.end, path.start, corner, arc.turns))
+    if (arc.kind == MoveKind::arc && !arc_within_limits(state().path_.end, path.start, corner, arc.turns))
         return off_limits();
-    return (reach(axes[0], path.start.first, words_.error_column()) &&
-            reach(axes[1], path.start.second, words_.error_column())) ||
+    return (reach(axes[0], path.start.first, error_column()) && reach(axes[1], path.start.second, error_column())) ||
            off_limits();
 }
 
-/// After G40 the cutter is still on the offset path.
-bool Interpreter::leaves_straight(std::int16_t code) {
-    if (!off_path_ || (compensating_ && next().cutter != CutterSide::off)) return true;
-    return words_.fail_at(
-        words_.error_column(), GrblStatus::bad_target,
-        fmt::format("{} after G40: the cutter is still at the offset contour; leave it with a straight move",
-                    name_of_g(code)));
+bool CutterCompensation::end_program() {
+    if (state().plan_.begins)
+        return trim(state().plan_.path, state().plan_.from, state().plan_.path.end) || gouges(line_number());
+    return !state().compensating_ || end_waiting_path();
 }
 
-/// Handles the end of the program on this line.
-bool Interpreter::end_cutter() {
-    if (cutter_plan_.begins)
-        return trim(cutter_plan_.path, cutter_plan_.from, cutter_plan_.path.end) || gouges(words_.number());
-    return !compensating_ || end_waiting_path();
-}
-
-/// Refuses a line whose calls would have to wait as well: it has no compensated move and does not end compensation.
-bool Interpreter::may_wait() {
-    const bool adds = !steps_.has_only(StepQueue::todo_comments);
-    if (!adds || cutter_plan_.begins || next().cutter == CutterSide::off || steps_.ends_program()) return true;
-    return words_.fail_at(
+bool CutterCompensation::may_wait() {
+    const bool adds = !steps().has_only(StepQueue::todo_comments);
+    if (!adds || state().plan_.begins || next().cutter == CutterSide::off || steps().ends_program()) return true;
+    return fail_at(
         0, GrblStatus::unsupported,
         fmt::format(
             "{} steps already wait for the contour move after line {}, which is the limit; the line was not executed; "
             "write that move before it, or G40",
-            CompensationQueue::max_steps, cutter_line_));
+            CompensationQueue::max_steps, state().line_));
 }
 
-/// Applies a valid line: final calls become ready, its own calls wait behind them.
-void Interpreter::commit_cutter() {
+void CutterCompensation::commit() {
     const auto& axes = plane_axes[modes().plane];
     const bool off = modes().cutter == CutterSide::off;
-    const bool ends = steps_.is_end_pending() || off;
-    const bool moved = steps_.has(StepQueue::todo_motion);
-    if (ends && compensating_ && !cutter_plan_.begins) held_.settle(axes[0], axes[1], cutter_plan_.last);
-    if (!ends || cutter_plan_.begins) hold_steps();
-    if (cutter_plan_.begins) {
-        cutter_path_ = cutter_plan_.path;
-        cutter_from_ = cutter_plan_.from;
-        cutter_line_ = words_.number();
-        if (ends) held_.settle(axes[0], axes[1], cutter_path_);
+    const bool ends = steps().is_end_pending() || off;
+    const bool moved = steps().has(StepQueue::todo_motion);
+    if (ends && state().compensating_ && !state().plan_.begins)
+        state().held_.settle(axes[0], axes[1], state().plan_.last);
+    if (!ends || state().plan_.begins) hold_steps();
+    if (state().plan_.begins) {
+        state().path_ = state().plan_.path;
+        state().from_ = state().plan_.from;
+        state().line_ = line_number();
+        if (ends) state().held_.settle(axes[0], axes[1], state().path_);
     }
-    if (compensating_ || cutter_plan_.begins) {
-        at_ = travel_.position();
-        at_[axes[0]] = cutter_path_.end.first;
-        at_[axes[1]] = cutter_path_.end.second;
-        off_path_ = !(off && moved);
+    if (state().compensating_ || state().plan_.begins) {
+        state().at_ = travel().position();
+        state().at_[axes[0]] = state().path_.end.first;
+        state().at_[axes[1]] = state().path_.end.second;
+        state().off_path_ = !(off && moved);
     } else {
-        off_path_ = off_path_ && !moved;
+        state().off_path_ = state().off_path_ && !moved;
     }
-    compensating_ = (compensating_ || cutter_plan_.begins) && !ends;
-    if (held_.has_ready()) steps_.add(StepQueue::todo_held);
+    state().compensating_ = (state().compensating_ || state().plan_.begins) && !ends;
+    if (state().held_.has_ready()) steps().add(StepQueue::todo_held);
 }
 
 /// Completes the waiting calls up to the start of this line's move.
-void Interpreter::settle_junction() {
+void CutterCompensation::settle_junction() {
     const auto& axes = plane_axes[modes().plane];
-    if (cutter_plan_.joins) held_.settle(axes[0], axes[1], cutter_plan_.last);
-    if (cutter_plan_.around) {
+    if (state().plan_.joins) state().held_.settle(axes[0], axes[1], state().plan_.last);
+    if (state().plan_.around) {
         CanonCall around;
-        around.line = words_.number();
-        around.move = cutter_plan_.arc;
-        held_.push(around);
+        around.line = line_number();
+        around.move = state().plan_.arc;
+        state().held_.push(around);
     }
-    held_.settle();
+    state().held_.settle();
 }
 
 /// Queues the events and motion of this line; comments are passed on at once, the end of the program is last.
-void Interpreter::hold_steps() {
-    const std::uint32_t kept = steps_.set_aside();
-    while (!steps_.empty()) {
-        if (steps_.is_motion_next() && cutter_plan_.begins) settle_junction();
-        held_.push(*pull());
+void CutterCompensation::hold_steps() {
+    const std::uint32_t kept = steps().set_aside();
+    while (!steps().empty()) {
+        if (steps().is_motion_next() && state().plan_.begins) settle_junction();
+        state().held_.push(*in_.pull());
     }
-    steps_.add(kept);
-    if (!compensating_ && !cutter_plan_.begins) held_.settle();
+    steps().add(kept);
+    if (!state().compensating_ && !state().plan_.begins) state().held_.settle();
 }
 
-void Interpreter::resync_position(const Point& position) {
-    travel_.move_to(position);
-    held_.clear();
-    compensating_ = off_path_ = false;
-    modes_.switch_cutter_off();
+void CutterCompensation::resync_position(const Point& position) {
+    travel().move_to(position);
+    state().held_.clear();
+    state().compensating_ = state().off_path_ = false;
+    in_.modes.switch_cutter_off();
 }
 
-Outcome<void> Interpreter::finish() {
-    steps_.clear();
-    cutter_plan_.clear();
-    if (!compensating_) return {};
+Outcome<void> CutterCompensation::finish() {
+    steps().clear();
+    state().plan_.clear();
+    if (!state().compensating_) return {};
     const auto& axes = plane_axes[modes().plane];
     if (!end_waiting_path()) {
-        held_.settle(axes[0], axes[1], cutter_path_);
-        held_.clear();
-        resync_position(at_);
-        return words_.problem_of_earlier(cutter_line_);
+        state().held_.settle(axes[0], axes[1], state().path_);
+        state().held_.clear();
+        resync_position(state().at_);
+        return in_.words.problem_of_earlier(state().line_);
     }
-    held_.settle(axes[0], axes[1], cutter_plan_.last);
-    compensating_ = false;
-    modes_.switch_cutter_off();
-    steps_.add(StepQueue::todo_held);
+    state().held_.settle(axes[0], axes[1], state().plan_.last);
+    state().compensating_ = false;
+    in_.modes.switch_cutter_off();
+    steps().add(StepQueue::todo_held);
     return {};
 }
 

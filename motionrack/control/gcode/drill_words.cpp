@@ -1,10 +1,11 @@
-// G73, G74, G81 .. G86, G89: from words to a checked plan of the holes.
+// Drilling cycles.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 #include <motionrack/control/gcode/codes.hpp>
-#include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/drill_cycle.hpp>
+#include <motionrack/control/gcode/drill_words.hpp>
 #include <motionrack/control/gcode/plane_point.hpp>
 
 namespace motionrack::control::gcode {
@@ -20,14 +21,14 @@ constexpr std::uint32_t depth_word = letter_bit('Z');
 }  // namespace
 
 /// Reads the words that the cycle stores from line to line; each must follow the cycle's own G word.
-bool Interpreter::cycle_words(std::int16_t code) {
+bool DrillWords::cycle_words(std::int16_t code) {
     const char depth = axis_letters[plane_axes[next().plane][2]];
     if (modes().motion != code) next().cycle_words = 0;
     const auto keep = [&](char letter, std::uint32_t mark, double& kept, double value) {
-        if (!block().has(letter) || (words_.used() & letter_bit(letter) & ~axis_words) != 0) return;
+        if (!block().has(letter) || (used() & letter_bit(letter) & ~axis_words) != 0) return;
         kept = value;
         next().cycle_words |= mark;
-        words_.use(letter_bit(letter));
+        use(letter_bit(letter));
     };
     if (block().has('R')) keep('R', letter_bit('R'), next().cycle_r, scaled('R'));
     if (block().has(depth)) keep(depth, depth_word, next().cycle_z, scaled(depth));
@@ -45,64 +46,84 @@ bool Interpreter::cycle_words(std::int16_t code) {
                        : letter == 'R' ? "the height to which to rapid, e.g. R2"
                        : letter == 'P' ? "the wait at the bottom in seconds, e.g. P0.5"
                                        : "the depth of a peck, e.g. Q1.5";
-    return words_.fail_at(words_.error_column(), GrblStatus::word_missing,
-                          fmt::format("{} word missing: {} needs {}", letter, name_of_g(code), what));
+    return fail_at(error_column(), GrblStatus::word_missing,
+                   fmt::format("{} word missing: {} needs {}", letter, name_of_g(code), what));
 }
 
 /// Tapping reverses the spindle at the bottom (the tap floats in its chuck), G86 stops it: it must turn, and for
 /// tapping in the correct direction.
-bool Interpreter::spindle_turns(std::int16_t code) {
+bool DrillWords::spindle_turns(std::int16_t code) {
     const Spindle needed = code == 740 ? Spindle::counter_clockwise : code == 840 ? Spindle::clockwise : next().spindle;
     if (code != 740 && code != 840 && code != 860) return true;
     if (next().spindle != Spindle::off && next().spindle == needed) return true;
-    return words_.fail_at(words_.error_column(), GrblStatus::unsupported,
-                          fmt::format("{} needs the spindle turning{}; write e.g. S500 {} before it", name_of_g(code),
-                                      code == 740   ? " counter-clockwise"
-                                      : code == 840 ? " clockwise"
-                                                    : "",
-                                      code == 740 ? "M4" : "M3"));
+    return fail_at(error_column(), GrblStatus::unsupported,
+                   fmt::format("{} needs the spindle turning{}; write e.g. S500 {} before it", name_of_g(code),
+                               code == 740   ? " counter-clockwise"
+                               : code == 840 ? " clockwise"
+                                             : "",
+                               code == 740 ? "M4" : "M3"));
 }
 
 /// Rejects a peck that is too thin for the depth of the hole, because the cycle would not end in useful time.
-bool Interpreter::pecks_go(const DrillCycle& plan) {
+bool DrillWords::pecks_go(const DrillCycle& plan) {
     if (!is_pecking(plan.code) || (plan.peck * max_pecks >= (plan.r - plan.bottom) * plan.repeats && plan.peck > 0))
         return true;
-    return words_.fail_at(
-        block().has('Q') ? block().column[letter_index('Q')] : words_.error_column(), GrblStatus::bad_target,
+    return fail_at(
+        block().has('Q') ? block().column[letter_index('Q')] : error_column(), GrblStatus::bad_target,
         fmt::format("the peck depth Q is {:.6g} mm for {} of {:.6g} mm; it must be above 0 and make at most 100000 "
                     "pecks of one line",
                     plan.peck, plan.repeats == 1 ? std::string("a hole") : fmt::format("{} holes", plan.repeats),
                     plan.r - plan.bottom));
 }
 
-bool Interpreter::cycle(std::int16_t code) {
+bool DrillWords::allows(std::int16_t code) {
     if (next().cutter != CutterSide::off) {
-        return words_.fail_at(
-            words_.error_column(), GrblStatus::axis_conflict,
+        return fail_at(
+            error_column(), GrblStatus::axis_conflict,
             fmt::format("{} cannot drill while cutter compensation is on; write G40 and a straight move before it",
                         name_of_g(code)));
     }
     if (!leaves_straight(code)) return false;
     if ((block().words & rotary_words) != 0) {
         const char letter = static_cast<char>('A' + std::countr_zero(block().words & rotary_words));
-        return words_.fail_word(letter, GrblStatus::unused_word,
-                                fmt::format("{}: a drilling cycle does not turn axes; put the turn on a line before it",
-                                            words_.word_text(letter)));
+        return fail_word(letter, GrblStatus::unused_word,
+                         fmt::format("{}: a drilling cycle does not turn axes; put the turn on a line before it",
+                                     word_text(letter)));
     }
     if (next().inverse_time) {
-        return words_.fail_at(
-            words_.error_column(), GrblStatus::no_feed,
+        return fail_at(
+            error_column(), GrblStatus::no_feed,
             fmt::format("{} cannot be done in G93 (inverse time); write G94 and a feed before it", name_of_g(code)));
     }
+    return true;
+}
+
+/// Computes the heights of the retract plane and the bottom.
+bool DrillWords::cycle_heights(DrillCycle& plan) {
+    const double offset = frame_now().offset[plan.third];
+    const bool goes_on = is_cycle(modes().motion) && modes().plane == next().plane;
+    if (!goes_on) next().cycle_level = plan.level;
+    plan.r = next().incremental ? next().cycle_level + next().cycle_r : next().cycle_r + offset;
+    plan.bottom = next().incremental ? plan.r + next().cycle_z : next().cycle_z + offset;
+    if (plan.r < plan.bottom) {
+        return fail_at(
+            block().has('R') ? block().column[letter_index('R')] : error_column(), GrblStatus::bad_target,
+            fmt::format("R is at {} = {:.6g} mm, below the bottom of the hole at {:.6g} mm; R must be above it",
+                        axis_letters[plan.third], plan.r - offset, plan.bottom - offset));
+    }
+    plan.clear = next().retract_to_r ? plan.r : std::max(plan.r, next().cycle_level);
+    return true;
+}
+
+bool DrillWords::read(std::int16_t code) {
+    if (!allows(code)) return false;
     const auto& axes = plane_axes[next().plane];
-    const int third = axes[2];
-    const char depth_letter = axis_letters[third];
     if (!in_turned_plane(code) || !spindle_turns(code) || !cycle_words(code)) return false;
     DrillCycle plan;
     if (block().has('L')) {
-        if (!words_.need_integer('L', 1, max_repeats, "the number of holes")) return false;
+        if (!need_integer('L', 1, max_repeats, "the number of holes")) return false;
         plan.repeats = static_cast<std::int32_t>(block()['L']);
-        words_.use(letter_bit('L'));
+        use(letter_bit('L'));
     }
     plan.code = code;
     plan.spindle = next().spindle;
@@ -110,51 +131,40 @@ bool Interpreter::cycle(std::int16_t code) {
     plan.first = axes[0];
     plan.second = axes[1];
     plan.third = axes[2];
-    plan.from = travel_.position();
-    plan.level = travel_.position()[third];
-    const double offset = frame_now().offset[third];
-    const bool goes_on = is_cycle(modes().motion) && modes().plane == next().plane;
-    if (!goes_on) next().cycle_level = plan.level;
-    plan.r = next().incremental ? next().cycle_level + next().cycle_r : next().cycle_r + offset;
-    plan.bottom = next().incremental ? plan.r + next().cycle_z : next().cycle_z + offset;
-    if (plan.r < plan.bottom) {
-        return words_.fail_at(
-            block().has('R') ? block().column[letter_index('R')] : words_.error_column(), GrblStatus::bad_target,
-            fmt::format("R is at {} = {:.6g} mm, below the bottom of the hole at {:.6g} mm; R must be above it",
-                        depth_letter, plan.r - offset, plan.bottom - offset));
-    }
-    plan.clear = next().retract_to_r ? plan.r : std::max(plan.r, next().cycle_level);
+    plan.from = travel().position();
+    plan.level = travel().position()[plan.third];
+    if (!cycle_heights(plan)) return false;
     plan.peck = next().cycle_q;
-    plan.clearance = settings_.peck_clearance_mm;
+    plan.clearance = settings().peck_clearance_mm;
     plan.seconds = next().cycle_p;
     if (!pecks_go(plan)) return false;
     plan.pattern.path = PathControl::exact_path;
-    plan.pattern.line = words_.number();
+    plan.pattern.line = line_number();
     plan.pattern.kind = MoveKind::feed;
     if (next().feed == 0) return no_feed();
     plan.pattern.feed = next().feed;
     if (!cycle_within_limits(plan)) return false;
-    steps_.add_cycle(plan);
+    steps().add_cycle(plan);
     return true;
 }
 
 /// Checks the first and the last hole, because all holes lie on a straight line. Computes the steps, the first hole and
 /// the end.
-bool Interpreter::cycle_within_limits(DrillCycle& plan) {
-    plan.pattern.end = travel_.position();
+bool DrillWords::cycle_within_limits(DrillCycle& plan) {
+    plan.pattern.end = travel().position();
     if (!(frame_now().is_rotated ? cycle_places_turned(plan) : cycle_places(plan))) return false;
     const char depth = axis_letters[plan.third];
-    const std::size_t r_column = block().has('R') ? block().column[letter_index('R')] : words_.error_column();
-    const std::size_t depth_column = block().has(depth) ? block().column[letter_index(depth)] : words_.error_column();
-    travel_.end()[plan.third] = plan.clear;
+    const std::size_t r_column = block().has('R') ? block().column[letter_index('R')] : error_column();
+    const std::size_t depth_column = block().has(depth) ? block().column[letter_index(depth)] : error_column();
+    travel().end()[plan.third] = plan.clear;
     if (plan.clear != plan.level && !reach(plan.third, plan.clear, r_column)) return false;
     return reach(plan.third, plan.r, r_column) && reach(plan.third, plan.bottom, depth_column);
 }
 
 /// Computes the first hole and the steps in a rotated work system, G17.
-bool Interpreter::cycle_places_turned(DrillCycle& plan) {
+bool DrillWords::cycle_places_turned(DrillCycle& plan) {
     const WorkFrame& frame = frame_now();
-    Point words = next().incremental ? Point{} : frame.to_program(travel_.position());
+    Point words = next().incremental ? Point{} : frame.to_program(travel().position());
     for (int axis = 0; axis < 2; ++axis)
         if (block().has(axis_letters[axis])) words[axis] = scaled(axis_letters[axis]);
     const Point by = frame.rotate(words), to = frame.to_machine(words);
@@ -162,15 +172,15 @@ bool Interpreter::cycle_places_turned(DrillCycle& plan) {
         double& step = axis == 0 ? plan.step_first : plan.step_second;
         step = next().incremental ? by[axis] : 0;
         if (!next().incremental) plan.pattern.end[axis] = to[axis];
-        travel_.end()[axis] = plan.pattern.end[axis] + plan.repeats * step;
-        if (!reach(axis, plan.pattern.end[axis] + step, words_.error_column()) ||
-            !reach(axis, travel_.end()[axis], words_.error_column()))
+        travel().end()[axis] = plan.pattern.end[axis] + plan.repeats * step;
+        if (!reach(axis, plan.pattern.end[axis] + step, error_column()) ||
+            !reach(axis, travel().end()[axis], error_column()))
             return false;
     }
     return true;
 }
 
-bool Interpreter::cycle_places(DrillCycle& plan) {
+bool DrillWords::cycle_places(DrillCycle& plan) {
     for (const int axis : {static_cast<int>(plan.first), static_cast<int>(plan.second)}) {
         const char letter = axis_letters[axis];
         if (!block().has(letter)) continue;
@@ -181,8 +191,8 @@ bool Interpreter::cycle_places(DrillCycle& plan) {
             step = value;
         else
             plan.pattern.end[axis] = value + frame_now().offset[axis];
-        travel_.end()[axis] = plan.pattern.end[axis] + plan.repeats * step;
-        if (!reach(axis, plan.pattern.end[axis] + step, column) || !reach(axis, travel_.end()[axis], column))
+        travel().end()[axis] = plan.pattern.end[axis] + plan.repeats * step;
+        if (!reach(axis, plan.pattern.end[axis] + step, column) || !reach(axis, travel().end()[axis], column))
             return false;
     }
     return true;
