@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
+#include <motionrack/control/gcode/words.hpp>
 #include <motionrack/grbl/line_rules.hpp>
 
 namespace motionrack::grbl {
@@ -10,12 +9,6 @@ using control::gcode::Block;
 using control::gcode::Interpreter;
 
 namespace {
-
-/// Returns true for non-modal G codes before which Grbl completes all previous motion.
-bool stands_first(int tenths) {
-    constexpr std::array<int, 8> codes = {40, 100, 281, 301, 920, 921, 922, 923};
-    return std::find(codes.begin(), codes.end(), tenths) != codes.end();
-}
 
 control::gcode::Spindle spindle_of(int code) {
     using control::gcode::Spindle;
@@ -47,10 +40,9 @@ bool grbl_has(const Block& block, int axes) {
 bool must_stand_first(const Block& block, const Interpreter& interpreter, bool laser) {
     using namespace control::gcode;
     const ModalState& modes = interpreter.modes();
-    if (block.has_m(m_stop)) return true;
-    if (block.has_g(g_nonmodal) && stands_first(block.g[g_nonmodal])) return true;
+    if (stands_first(block)) return true;
     if (block.has_g(g_system) && block.g[g_system] != 540 + 10 * modes.system) return true;
-    if (block.has_g(g_tool_length) && (block.g[g_tool_length] == 431 || interpreter.frame().tool[2] != 0)) return true;
+    if (block.has_g(g_tool_length) && interpreter.frame().tool[2] != 0) return true;
     if (block.has_m(m_spindle) && spindle_of(block.m[m_spindle]) != modes.spindle) return !laser;
     if (block.has('S') && block['S'] != modes.speed_rpm) return !laser;
     return (block.has_m(m_mist) && !modes.mist) || (block.has_m(m_flood) && !modes.flood) ||

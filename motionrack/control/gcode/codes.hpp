@@ -1,4 +1,4 @@
-// The supported G and M codes, their modal groups, and explanations for the refused ones.
+// Names, modal groups and explanations of G and M codes, from the table in words.cpp.
 #pragma once
 
 #include <motionrack/control/gcode/block.hpp>
@@ -22,8 +22,8 @@ std::string members_of_m(GroupM group);
 /// "M0 M1 .."
 std::string known_m_codes();
 
-/// Returns true if a line from a sender may have the code, as in Grbl 1.1.
-bool is_for_senders(GroupG group, int tenths);
+/// Returns true if a line from a sender may have the supported code, as in Grbl 1.1.
+bool is_for_senders(int tenths);
 
 /// Explains why a refused or unknown code is not supported, with a remedy.
 std::string why_not_g(int tenths);

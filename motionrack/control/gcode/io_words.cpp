@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <motionrack/control/gcode/io_words.hpp>
+#include <motionrack/control/gcode/words.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -26,9 +27,7 @@ bool IoWords::read() {
     const int code = block().m[m_io];
     if (code == wait_on_input) return read_input();
     const bool analog = is_analog_output(code);
-    if (!claim_words(analog ? letter_bit('E') | letter_bit('Q') : letter_bit('P')) ||
-        !port_number(analog ? 'E' : 'P', '\0'))
-        return false;
+    if (!claim_words(rule_of_m(code).letters) || !port_number(analog ? 'E' : 'P', '\0')) return false;
     if (analog && !block().has('Q')) {
         return fail_at(
             block().m_column[m_io], GrblStatus::word_missing,
@@ -40,8 +39,7 @@ bool IoWords::read() {
 
 /// Interprets M66: P or E, wait mode L, timeout Q.
 bool IoWords::read_input() {
-    if (!claim_words(letter_bit('P') | letter_bit('E') | letter_bit('L') | letter_bit('Q')) || !port_number('P', 'E'))
-        return false;
+    if (!claim_words(rule_of_m(wait_on_input).letters) || !port_number('P', 'E')) return false;
     if (block().has('L') && !need_integer('L', at_once, low, "how to wait (0 not at all, 1 rise, 2 fall, 3 on, 4 off)"))
         return false;
     const Wait wait = block().has('L') ? static_cast<Wait>(block()['L']) : at_once;

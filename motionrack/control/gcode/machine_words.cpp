@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <motionrack/control/gcode/machine_words.hpp>
+#include <motionrack/control/gcode/words.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -48,7 +49,7 @@ bool MachineWords::apply() {
 /// M48 .. M53. The machine has no spindle override or feed stop switch: their state is stored and reported.
 bool MachineWords::overrides() {
     const int code = block().m[m_override];
-    const bool takes_p = code >= 50;
+    const bool takes_p = (rule_of_m(code).letters & letter_bit('P')) != 0;
     const bool on = takes_p && block().has('P') ? block()['P'] != 0 : code != 49;
     if (takes_p) use(letter_bit('P'));
     if (code == 52 && on) {
@@ -69,7 +70,7 @@ bool MachineWords::check_program() {
     if (language() != Language::program)
         return fail_at(column, GrblStatus::unsupported,
                        fmt::format("M{}: a single line has no subprograms; run the program as a file", code));
-    const std::uint32_t own = letter_bit('N') | (code == 98 ? letter_bit('P') | letter_bit('L') : 0u);
+    const std::uint32_t own = letter_bit('N') | rule_of_m(code).letters;
     if (block().g_groups != 0 || block().m_groups != 1u << m_program || (block().words & ~own) != 0 ||
         !block().assignments.empty()) {
         return fail_at(

@@ -31,9 +31,9 @@ int tenths_of(const Number& number) {
 bool Scanner::code_g(const Number& number, std::size_t column) {
     const int tenths = tenths_of(number);
     const GroupG group = group_of_g(tenths);
-    if (group >= g_group_count || (options_.language == Language::words && !is_for_senders(group, tenths))) {
+    if (group >= g_group_count || (options_.language == Language::words && !is_for_senders(tenths))) {
         const bool named = tenths >= 0 && tenths < 1000;
-        const GrblStatus status = tenths >= 591 && tenths <= 593 ? GrblStatus::no_such_system : GrblStatus::unsupported;
+        const GrblStatus status = group == g_system ? GrblStatus::no_such_system : GrblStatus::unsupported;
         return fail_at(
             column, status,
             named ? why_not_g(tenths)

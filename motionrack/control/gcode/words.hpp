@@ -1,0 +1,34 @@
+// One row for each G and M code: everything that other parts have to know of it.
+//
+// A new code is a row here and the function that executes it.
+#pragma once
+
+#include <motionrack/control/gcode/block.hpp>
+#include <span>
+#include <string_view>
+
+namespace motionrack::control::gcode {
+
+struct WordRule {
+    std::int16_t code;          ///< G code in tenths; M code as written
+    std::uint8_t group;         ///< GroupG or GroupM
+    std::uint32_t letters = 0;  ///< words that the code may use, besides F, N, S and T
+    std::string_view help = {};
+    bool stands_first = false;  ///< as Grbl: all earlier motion ends before it
+    /// Why the code is refused, with a remedy, as it follows the name of the code. A code with a group is refused only
+    /// in lines from a sender.
+    std::string_view refusal = {};
+};
+
+std::span<const WordRule> words_g();
+std::span<const WordRule> words_m();
+
+/// Returns the row of a G code in tenths, or one with g_unknown.
+const WordRule& rule_of_g(int tenths);
+/// Returns the row of an M code, or one with m_unknown.
+const WordRule& rule_of_m(int code);
+
+/// Returns true if the block has a code before which all earlier motion ends.
+bool stands_first(const Block& block);
+
+}  // namespace motionrack::control::gcode
