@@ -3,13 +3,12 @@
 
 #include <motionrack/control/gcode/cutter_compensation.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
-#include <motionrack/control/gcode/io_words.hpp>
 #include <motionrack/control/gcode/language/machine_parameters.hpp>
 #include <motionrack/control/gcode/lathe_words.hpp>
 #include <motionrack/control/gcode/machine_words.hpp>
 #include <motionrack/control/gcode/mode_words.hpp>
 #include <motionrack/control/gcode/motion_words.hpp>
-#include <motionrack/control/gcode/nonmodal_words.hpp>
+#include <motionrack/control/gcode/words.hpp>
 #include <utility>
 
 namespace motionrack::control::gcode {
@@ -52,8 +51,7 @@ bool Interpreter::evaluate() {
     if (!block().comments.empty()) state_.steps.add_comments();
     if (!block().assignments.empty() && !assign()) return false;
     if (!block().comments.empty()) show_values();
-    if (block().has_m(m_state))
-        state_.modes.save(block().m[m_state], static_cast<std::size_t>(state_.parameters.level()));
+    (void)run_words(state_, WordPhase::saving);
     if (block().has_m(m_io) && block().m[m_io] == 66) state_.parameters.set(input_parameter, state_.steps.port_value());
     commit();
     return true;
@@ -63,16 +61,14 @@ bool Interpreter::evaluate() {
 bool Interpreter::read_words() {
     const ModalState& next = state_.modes.next();
     if (!ModeWords(state_).check()) return false;
-    if (block().has_m(m_program) && !MachineWords(state_).check_program()) return false;
-    if ((block().m_groups | (block().words & (letter_bit('S') | letter_bit('T')))) != 0 &&
-        !MachineWords(state_).apply())
-        return false;
-    if ((block().g_groups & ~(1u << g_motion)) != 0 && !ModeWords(state_).apply()) return false;
+    if (!run_words(state_, WordPhase::program)) return false;
+    MachineWords(state_).apply_letters();
+    if (!run_words(state_, WordPhase::machine) || !run_words(state_, WordPhase::modes)) return false;
     if (next.cutter != CutterSide::off && !CutterCompensation(state_).allows()) return false;
     if (block().has('F')) ModeWords(state_).apply_feed();
-    if (block().has_g(g_nonmodal) && !NonmodalWords(state_).read()) return false;
+    if (!run_words(state_, WordPhase::once)) return false;
     if (!MotionWords(state_).read()) return false;
-    if (block().has_m(m_io) && !IoWords(state_).read()) return false;
+    if (!run_words(state_, WordPhase::io)) return false;
     if (state_.steps.ends_program() && next.cutter != CutterSide::off && !CutterCompensation(state_).end_program())
         return false;
     if (state_.cutter.is_full() && !CutterCompensation(state_).may_wait()) return false;

@@ -6,7 +6,7 @@
 
 namespace motionrack::control::gcode {
 
-bool MachineWords::apply() {
+void MachineWords::apply_letters() {
     if (block().has('S')) {
         next().speed_rpm = block()['S'];
         steps().add(StepQueue::todo_spindle_speed);
@@ -15,40 +15,39 @@ bool MachineWords::apply() {
         next().tool_selected = static_cast<std::int32_t>(block()['T']);
         steps().add(StepQueue::todo_tool_select);
     }
-    if (block().has_m(m_tool) && block().m[m_tool] == 61) {
-        if (!set_tool()) return false;
-    } else if (block().has_m(m_tool)) {
-        if (next().tool_selected < 0) {
-            return fail_at(block().m_column[m_tool], GrblStatus::word_missing,
-                           "M6 changes to the tool selected by a T word, and none was selected; write e.g. T1 M6");
-        }
-        next().tool_loaded = next().tool_selected;
-        steps().add(StepQueue::todo_tool_change);
+}
+
+bool MachineWords::change_tool() {
+    if (next().tool_selected < 0) {
+        return fail_at(block().m_column[m_tool], GrblStatus::word_missing,
+                       "M6 changes to the tool selected by a T word, and none was selected; write e.g. T1 M6");
     }
-    if (block().has_m(m_spindle)) {
-        const int code = block().m[m_spindle];
-        next().spindle = code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
-        steps().add(StepQueue::todo_spindle);
-    }
-    if (block().has_m(m_mist)) next().mist = true;
-    if (block().has_m(m_flood)) next().flood = true;
-    if (block().has_m(m_coolant_off)) next().mist = next().flood = false;
-    if ((block().m_groups & (1u << m_mist | 1u << m_flood | 1u << m_coolant_off)) != 0)
-        steps().add(StepQueue::todo_coolant);
-    if (block().has_m(m_override) && !overrides()) return false;
-    if (block().has_m(m_state) && block().m[m_state] == 72) {
-        if (const ModalState* saved = in_.modes.saved(static_cast<std::size_t>(in_.parameters.level())))
-            restore(*saved);
-    }
-    if (block().has_m(m_stop)) {
-        steps().add_stop(block().m[m_stop]);
-    }
+    next().tool_loaded = next().tool_selected;
+    steps().add(StepQueue::todo_tool_change);
+    return true;
+}
+
+bool MachineWords::set_spindle(std::int16_t code) {
+    next().spindle = code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
+    steps().add(StepQueue::todo_spindle);
+    return true;
+}
+
+bool MachineWords::set_coolant(std::int16_t code) {
+    if (code == 7) next().mist = true;
+    if (code == 8) next().flood = true;
+    if (code == 9) next().mist = next().flood = false;
+    steps().add(StepQueue::todo_coolant);
+    return true;
+}
+
+bool MachineWords::stop(std::int16_t code) {
+    steps().add_stop(code);
     return true;
 }
 
 /// M48 .. M53. The machine has no spindle override or feed stop switch: their state is stored and reported.
-bool MachineWords::overrides() {
-    const int code = block().m[m_override];
+bool MachineWords::overrides(std::int16_t code) {
     const bool takes_p = (rule_of_m(code).letters & letter_bit('P')) != 0;
     const bool on = takes_p && block().has('P') ? block()['P'] != 0 : code != 49;
     if (takes_p) use(letter_bit('P'));
@@ -101,6 +100,16 @@ bool MachineWords::set_tool() {
     use(letter_bit('Q'));
     next().tool_loaded = number;
     steps().add(StepQueue::todo_tool_change);
+    return true;
+}
+
+bool MachineWords::save_modes(std::int16_t code) {
+    in_.modes.save(code, static_cast<std::size_t>(in_.parameters.level()));
+    return true;
+}
+
+bool MachineWords::restore_saved() {
+    if (const ModalState* saved = in_.modes.saved(static_cast<std::size_t>(in_.parameters.level()))) restore(*saved);
     return true;
 }
 

@@ -29,7 +29,6 @@ void Modes::end_program() {
 }
 
 void Modes::save(int code, std::size_t level) {
-    if (code == 72) return;
     if (kept_.size() <= level) kept_.resize(level + 1);
     kept_[level] = {};
     if (code != 71) kept_[level] = {now_, code == 73};

@@ -68,11 +68,11 @@ class Modes {
     /// Applies the state after M2 and M30 that Grbl and LinuxCNC reset.
     void end_program();
 
-    /// M70 saves the modes, M71 discards them, M72 restores them, M73 saves them until the call ends. Spindle and
-    /// coolant are not affected. `level`: the call depth.
+    /// M70 saves the modes, M71 discards them, M73 saves them until the call ends. `level`: the call depth.
     void save(int code, std::size_t level);
     /// Returns null if there are none.
     const ModalState* saved(std::size_t level) const;
+    /// M72; spindle and coolant are not affected.
     void restore(const ModalState& saved);
     /// Drops the modes of a call that ends; returns those that M73 saved.
     std::optional<ModalState> leave_call(std::size_t level);

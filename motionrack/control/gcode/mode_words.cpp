@@ -3,9 +3,7 @@
 
 #include <bit>
 #include <cmath>
-#include <motionrack/control/gcode/cutter_compensation.hpp>
 #include <motionrack/control/gcode/mode_words.hpp>
-#include <motionrack/control/gcode/offset_words.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -53,38 +51,29 @@ bool ModeWords::check() {
     return true;
 }
 
-bool ModeWords::apply() {
-    if (block().has_g(g_units)) next().inch = block().g[g_units] == 200;
-    if (block().has_g(g_feed_mode)) {
-        const bool inverse = block().g[g_feed_mode] == 930;
-        if (inverse != next().inverse_time) next().feed = next().feed_rotary = 0;
-        next().inverse_time = inverse;
-    }
-    if (block().has_g(g_plane)) next().plane = static_cast<std::uint8_t>((block().g[g_plane] - 170) / 10);
-    if (block().has_g(g_distance)) next().incremental = block().g[g_distance] == 910;
-    if (block().has_g(g_arc_distance)) next().arc_absolute = block().g[g_arc_distance] == 901;
-    if (block().has_g(g_retract)) next().retract_to_r = block().g[g_retract] == 990;
-    if (block().has_g(g_cutter) && !CutterCompensation(in_).select()) return false;
-    if (block().has_g(g_tool_length) && !OffsetWords(in_).tool_length()) return false;
-    if (block().has_g(g_system)) {
-        const int code = block().g[g_system];
-        next().system = static_cast<std::uint8_t>(code > 590 ? code - 585 : (code - 540) / 10);
-        edit_frame().activate(next().system);
-    }
-    if (block().has_g(g_path)) {
-        const int code = block().g[g_path];
-        next().path = code == 610   ? PathControl::exact_path
-                      : code == 611 ? PathControl::exact_stop
-                                    : PathControl::continuous;
-        if (code == 640) {
-            next().tolerance_mm = settings().path_tolerance_mm;
-            const bool others =
-                block().has_g(g_nonmodal) && (block().g[g_nonmodal] == 40 || block().g[g_nonmodal] == 100);
-            if (block().has('P') && !others) {
-                next().tolerance_mm = scaled('P');
-                use(letter_bit('P'));
-            }
-        }
+bool ModeWords::set_feed_mode(std::int16_t code) {
+    const bool inverse = code == 930;
+    if (inverse != next().inverse_time) next().feed = next().feed_rotary = 0;
+    next().inverse_time = inverse;
+    return true;
+}
+
+bool ModeWords::set_system(std::int16_t code) {
+    next().system = static_cast<std::uint8_t>(code > 590 ? code - 585 : (code - 540) / 10);
+    edit_frame().activate(next().system);
+    return true;
+}
+
+bool ModeWords::set_path(std::int16_t code) {
+    next().path = code == 610   ? PathControl::exact_path
+                  : code == 611 ? PathControl::exact_stop
+                                : PathControl::continuous;
+    if (code != 640) return true;
+    next().tolerance_mm = settings().path_tolerance_mm;
+    const bool others = block().has_g(g_nonmodal) && (block().g[g_nonmodal] == 40 || block().g[g_nonmodal] == 100);
+    if (block().has('P') && !others) {
+        next().tolerance_mm = scaled('P');
+        use(letter_bit('P'));
     }
     return true;
 }

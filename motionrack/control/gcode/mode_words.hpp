@@ -11,8 +11,9 @@ class ModeWords : public WordReader {
 
     /// Checks the signs, the axes, and the N and T words.
     bool check();
-    /// Applies the modal G codes.
-    bool apply();
+    bool set_feed_mode(std::int16_t code);  ///< G93, G94
+    bool set_system(std::int16_t code);     ///< G54 .. G59.3
+    bool set_path(std::int16_t code);       ///< G61, G61.1, G64
     void apply_feed();
 
   private:

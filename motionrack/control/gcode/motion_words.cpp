@@ -2,13 +2,10 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <motionrack/control/gcode/arc_words.hpp>
 #include <motionrack/control/gcode/codes.hpp>
-#include <motionrack/control/gcode/drill_words.hpp>
-#include <motionrack/control/gcode/lathe_words.hpp>
 #include <motionrack/control/gcode/motion_words.hpp>
 #include <motionrack/control/gcode/spline_words.hpp>
-#include <motionrack/control/gcode/straight_words.hpp>
+#include <motionrack/control/gcode/words.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -17,7 +14,7 @@ bool MotionWords::read() {
     std::int16_t code = is_explicit ? block().g[g_motion] : modes().motion;
     if (code == 800) code = no_motion;
     next().motion = code;
-    if (is_explicit && is_turning(code)) return LatheWords(in_).read(code);
+    if (is_explicit && is_turning(code)) return rule_of_g(code).handler(in_, code);
     const bool own_axis_words = !axis_words_taken() && (block().words & axis_words) != 0;
     const bool own_offsets = (is_arc(code) || is_spline(code)) && (block().words & offset_words) != 0;
     const bool wants_motion = own_axis_words || (own_offsets && !axis_words_taken());
@@ -25,10 +22,7 @@ bool MotionWords::read() {
     if (!motion_needs(code, wants_motion)) return false;
     if (!wants_motion) return true;
     use(axis_words);
-    if (is_arc(code)) return ArcWords(in_).read(code);
-    if (is_cycle(code)) return DrillWords(in_).read(code);
-    if (is_spline(code)) return SplineWords(in_).read(code);
-    return StraightWords(in_).read(code);
+    return rule_of_g(code).handler(in_, code);
 }
 
 /// Checks the combination of axis words and motion word.

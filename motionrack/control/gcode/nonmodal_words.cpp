@@ -4,56 +4,46 @@
 #include <bit>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/nonmodal_words.hpp>
-#include <motionrack/control/gcode/offset_words.hpp>
 
 namespace motionrack::control::gcode {
 
-bool NonmodalWords::read() {
-    const std::int16_t code = block().g[g_nonmodal];
-    switch (code) {
-        case 40:
-            return dwell();
-        case 100:
-            return OffsetWords(in_).set_offsets();
-        case 280:
-        case 300:
-            return reference();
-        case 281:
-            edit_frame().g28 = travel().position();
-            break;
-        case 301:
-            edit_frame().g30 = travel().position();
-            break;
-        case 920:
-            return shift();
-        case 921: {
-            WorkFrame& frame = edit_frame();
-            frame.g92 = frame.g92_saved = Point{};
-            frame.activate(next().system);
-            break;
-        }
-        case 922: {
-            WorkFrame& frame = edit_frame();
-            frame.g92 = Point{};
-            frame.activate(next().system);
-            break;
-        }
-        case 923: {
-            WorkFrame& frame = edit_frame();
-            frame.g92 = frame.g92_saved;
-            frame.activate(next().system);
-            break;
-        }
-        default:
-            return true;  // G53 belongs to the motion
-    }
-    if ((block().words & axis_words) != 0 && !block().has_g(g_motion)) {
-        const char letter = static_cast<char>('A' + std::countr_zero(block().words & axis_words));
-        return fail_word(letter, GrblStatus::axis_words_unused,
-                         fmt::format("{}: {} takes no axis words; put the move on a separate line", word_text(letter),
-                                     name_of_g(code)));
-    }
-    return true;
+bool NonmodalWords::takes_no_axis_words() {
+    if ((block().words & axis_words) == 0 || block().has_g(g_motion)) return true;
+    const char letter = static_cast<char>('A' + std::countr_zero(block().words & axis_words));
+    return fail_word(letter, GrblStatus::axis_words_unused,
+                     fmt::format("{}: {} takes no axis words; put the move on a separate line", word_text(letter),
+                                 name_of_g(block().g[g_nonmodal])));
+}
+
+bool NonmodalWords::store_first_reference() {
+    edit_frame().g28 = travel().position();
+    return takes_no_axis_words();
+}
+
+bool NonmodalWords::store_second_reference() {
+    edit_frame().g30 = travel().position();
+    return takes_no_axis_words();
+}
+
+bool NonmodalWords::forget_shift() {
+    WorkFrame& frame = edit_frame();
+    frame.g92 = frame.g92_saved = Point{};
+    frame.activate(next().system);
+    return takes_no_axis_words();
+}
+
+bool NonmodalWords::suspend_shift() {
+    WorkFrame& frame = edit_frame();
+    frame.g92 = Point{};
+    frame.activate(next().system);
+    return takes_no_axis_words();
+}
+
+bool NonmodalWords::restore_shift() {
+    WorkFrame& frame = edit_frame();
+    frame.g92 = frame.g92_saved;
+    frame.activate(next().system);
+    return takes_no_axis_words();
 }
 
 bool NonmodalWords::dwell() {
@@ -88,7 +78,7 @@ bool NonmodalWords::shift() {
     return true;
 }
 
-bool NonmodalWords::reference() {
+bool NonmodalWords::move_to_reference() {
     if (axis_words_taken()) {
         return fail_at(block().g_column[g_nonmodal], GrblStatus::axis_conflict,
                        fmt::format("{} and {} on one line both use axis words; put them on two lines",

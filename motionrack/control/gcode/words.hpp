@@ -9,10 +9,29 @@
 
 namespace motionrack::control::gcode {
 
+struct InterpreterState;
+
+/// The codes of a line are executed phase by phase; in a phase, in the order of their groups.
+enum class WordPhase : std::uint8_t {
+    none,
+    program,  ///< M98, M99
+    machine,  ///< S and T, then spindle, coolant, tool, overrides and stops
+    modes,    ///< modal G codes, then F
+    once,     ///< non-modal G codes
+    motion,   ///< the active motion code, by MotionWords
+    io,       ///< M62 .. M68, which take the words that are left
+    saving    ///< M70, M71, M73: when the line is valid
+};
+
+/// Executes a code. Returns false after it has stored the error of the line.
+using WordHandler = bool (*)(InterpreterState& state, std::int16_t code);
+
 struct WordRule {
-    std::int16_t code;          ///< G code in tenths; M code as written
-    std::uint8_t group;         ///< GroupG or GroupM
-    std::uint32_t letters = 0;  ///< words that the code may use, besides F, N, S and T
+    std::int16_t code;   ///< G code in tenths; M code as written
+    std::uint8_t group;  ///< GroupG or GroupM
+    WordPhase phase = WordPhase::none;
+    WordHandler handler = nullptr;  ///< null: other words of the line look for the code
+    std::uint32_t letters = 0;      ///< words that the code may use, besides F, N, S and T
     std::string_view help = {};
     bool stands_first = false;  ///< as Grbl: all earlier motion ends before it
     /// Why the code is refused, with a remedy, as it follows the name of the code. A code with a group is refused only
@@ -27,6 +46,9 @@ std::span<const WordRule> words_m();
 const WordRule& rule_of_g(int tenths);
 /// Returns the row of an M code, or one with m_unknown.
 const WordRule& rule_of_m(int code);
+
+/// Executes the codes of the last line that belong to this phase.
+bool run_words(InterpreterState& state, WordPhase phase);
 
 /// Returns true if the block has a code before which all earlier motion ends.
 bool stands_first(const Block& block);
