@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <motionrack/control/gcode/words.hpp>
 #include <motionrack/mark/marking_job.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/job.hpp>
@@ -77,6 +78,11 @@ TEST(Docs, TheSafetyPageIsCurrent) {
 TEST(Docs, TheSweepFilePageIsCurrent) {
     EXPECT_EQ(text_of(source_root / "docs/reference/sweep-file.md"), sweep::sweep_file_reference())
         << "make it anew: motionrack describe sweep-file > docs/reference/sweep-file.md";
+}
+
+TEST(Docs, TheGcodePageIsCurrent) {
+    EXPECT_EQ(text_of(source_root / "docs/reference/gcode.md"), control::gcode::gcode_reference())
+        << "make it anew: motionrack describe gcode > docs/reference/gcode.md";
 }
 
 TEST(Docs, LinksLeadSomewhere) {

@@ -3,6 +3,7 @@
 
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/scanner.hpp>
+#include <motionrack/control/gcode/words.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -59,13 +60,12 @@ bool Scanner::code_m(const Number& number, std::size_t column) {
     const int tenths = tenths_of(number);
     const int code = tenths >= 0 && tenths % 10 == 0 ? tenths / 10 : -1;
     const GroupM group = group_of_m(code);
-    constexpr int last_of_senders = 30;
-    const bool beyond_senders = options_.language == Language::words && code > last_of_senders;
+    const bool beyond_senders = options_.language == Language::words && code > max_m_of_senders;
     if (group == m_unknown || beyond_senders) {
         return fail_at(
             column, GrblStatus::unsupported,
             group != m_unknown ? fmt::format("M{}: lines from a sender may use M0 to M{}; run the program as a file",
-                                             code, last_of_senders)
+                                             code, max_m_of_senders)
             : code >= 0
                 ? why_not_m(code)
                 : fmt::format("{} is not a known command; known are {}", word_at(text_, column), known_m_codes()));

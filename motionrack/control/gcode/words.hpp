@@ -5,11 +5,15 @@
 
 #include <motionrack/control/gcode/block.hpp>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace motionrack::control::gcode {
 
 struct InterpreterState;
+
+/// Largest M code that a line from a sender may have, as in Grbl 1.1.
+inline constexpr int max_m_of_senders = 30;
 
 /// The codes of a line are executed phase by phase; in a phase, in the order of their groups.
 enum class WordPhase : std::uint8_t {
@@ -46,6 +50,9 @@ std::span<const WordRule> words_m();
 const WordRule& rule_of_g(int tenths);
 /// Returns the row of an M code, or one with m_unknown.
 const WordRule& rule_of_m(int code);
+
+/// Returns docs/reference/gcode.md.
+std::string gcode_reference();
 
 /// Executes the codes of the last line that belong to this phase.
 bool run_words(InterpreterState& state, WordPhase phase);

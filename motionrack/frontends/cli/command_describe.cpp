@@ -1,9 +1,10 @@
-// describe: registers, commands, states and pins of a card; keys of a rack file, marking job or sweep file; or
-// operations of a served machine.
+// describe: registers, commands, states and pins of a card; keys of a rack file, marking job or sweep file; G and M
+// codes; or operations of a served machine.
 #include <fmt/format.h>
 
 #include <memory>
 #include <motionrack/base/describe.hpp>
+#include <motionrack/control/gcode/words.hpp>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
@@ -43,6 +44,10 @@ int describe(const DescribeOptions& options) {
         fmt::print("{}", sweep::sweep_file_reference());
         return exit_done;
     }
+    if (options.what == "gcode") {
+        fmt::print("{}", control::gcode::gcode_reference());
+        return exit_done;
+    }
     if (options.what == "safety") {
         fmt::print("{}", rack::safety_reference());
         return exit_done;
@@ -54,7 +59,7 @@ int describe(const DescribeOptions& options) {
     const rack::CardKind* kind = rack::find_card_kind(options.what);
     if (!kind) {
         print_error(
-            fmt::format("Unknown topic '{}'. Known topics: rack-file, marking-job, sweep-file, safety, api, {}.",
+            fmt::format("Unknown topic '{}'. Known topics: rack-file, marking-job, sweep-file, gcode, safety, api, {}.",
                         options.what, card_types()));
         return exit_usage;
     }
@@ -69,15 +74,18 @@ int describe(const DescribeOptions& options) {
 
 void add_describe(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<DescribeOptions>();
-    CLI::App* command = app.add_subcommand("describe",
-                                           "Print a card's registers, commands, states and pins, the keys of a rack "
-                                           "file, marking job or sweep file, or the interface of a served machine");
+    CLI::App* command =
+        app.add_subcommand("describe",
+                           "Print a card's registers, commands, states and pins, the keys of a rack "
+                           "file, marking job or sweep file, the G and M codes, or the interface of a served "
+                           "machine");
     command
         ->add_option(
             "CARD", options->what,
-            fmt::format("a card type ({}), rack-file, marking-job, sweep-file, safety (what a stop does), or api "
-                        "(OpenAPI)",
-                        card_types()))
+            fmt::format(
+                "a card type ({}), rack-file, marking-job, sweep-file, gcode, safety (what a stop does), or api "
+                "(OpenAPI)",
+                card_types()))
         ->required();
     auto* markdown = command->add_flag("--markdown", options->markdown, "as Markdown, as in docs/reference");
     command->add_flag("--json", options->json, "as JSON")->excludes(markdown);
