@@ -31,9 +31,10 @@ void VirtualHost::run_to(Instant until, bool until_interrupt) {
         if (until_interrupt && (kernel_.level(interrupt_) == active_ || stop_requested())) return;
         const Instant stop = on_slice_ ? std::min(until, std::max(next_slice_, kernel_.now())) : until;
         const RunEnd end = kernel_.run_until(stop);
-        if (on_slice_ && (end == RunEnd::broken || kernel_.now() >= next_slice_)) {  // broken: perhaps a full buffer
+        const bool reached = kernel_.now() >= next_slice_;
+        if (on_slice_ && (end == RunEnd::broken || reached)) {  // broken: perhaps a full buffer
             on_slice_();
-            next_slice_ = kernel_.now() + slice_;
+            if (reached) next_slice_ = kernel_.now() + slice_;
         }
         if (kernel_.now() >= until) return;
     }

@@ -28,7 +28,8 @@ class VirtualHost : public Interrupt {
     void set_halted_flag(const std::atomic<bool>* halted) { halted_ = halted; }
     /// Delay of the host from an interrupt to its next step; initially 0.
     void set_latency(Duration latency) { latency_ = latency; }
-    /// Called between runs at least every `slice` of virtual time: progress, draining of recorders.
+    /// Called between runs: every `slice` of virtual time, and where a device breaks a run, which does not shift the
+    /// slices. For progress, draining of recorders.
     void on_slice(Duration slice, std::function<void()> call) { slice_ = slice, on_slice_ = std::move(call); }
 
   protected:

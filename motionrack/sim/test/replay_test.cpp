@@ -5,6 +5,7 @@
 #include <motionrack/sim/parts/axis_mechanics.hpp>
 #include <motionrack/sim/test/fake_pulses.hpp>
 #include <motionrack/sim/virtual_port.hpp>
+#include <vector>
 
 namespace motionrack::sim {
 namespace {
@@ -166,6 +167,30 @@ TEST(VirtualPort, ABufferThatIsNearlyFullIsDrainedBeforeTheRunContinues) {
     port.on_slice(milliseconds(50), [&filler] { filler.filled = 0; });
     port.pass(milliseconds(10));
     EXPECT_EQ(filler.max_filled, 8);
+}
+
+TEST(VirtualPort, ABrokenRunIsASliceMoreAndShiftsNoOther) {
+    class BreaksOnce final : public Device {
+      public:
+        BreaksOnce(Kernel& kernel, Instant at) : kernel_(kernel) {
+            kernel.schedule(kernel.add(*this, Phase::observers, "breaks once"), at);
+        }
+        void on_scheduled(Instant) override { kernel_.break_run(); }
+
+      private:
+        Kernel& kernel_;
+    };
+    Kernel kernel;
+    FakePulses pulses{kernel, {}};
+    PulseCard card{kernel, pulses};
+    const BreaksOnce breaks(kernel, milliseconds(13));
+    kernel.start();
+    VirtualPort port(kernel, card, card.id, card.interrupt, nanoseconds(250));
+    std::vector<Instant> slices;
+    port.on_slice(milliseconds(10), [&] { slices.push_back(kernel.now()); });
+    port.pass(milliseconds(40));
+    EXPECT_EQ(slices, (std::vector<Instant>{milliseconds(0), milliseconds(10), milliseconds(13), milliseconds(20),
+                                            milliseconds(30), milliseconds(40)}));
 }
 
 }  // namespace
