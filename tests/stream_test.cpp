@@ -1,6 +1,7 @@
 // A program that arrives line by line, with holds, overrides and resumes at random instants: it reaches the same end,
 // on its path, within all limits. MOTIONRACK_SEED=N selects the first program, MOTIONRACK_PROGRAMS=N their number.
 #include <cstdlib>
+#include <motionrack/control/program_feed.hpp>
 #include <motionrack/control/stream_executor.hpp>
 #include <random>
 #include <vector>
@@ -34,6 +35,7 @@ struct Watched {
         settings.accel_reserve = rack.axes().front().card->accel_reserve();
         stream = std::make_unique<StreamExecutor>(*axes, host(), settings);
         stream->on_move([this](const control::Move& move, const control::Point& start) {
+            if (move.kind == control::MoveKind::dwell) return;
             programmed.push_back(control::geometry_of(move, start));
             if (move.path == control::PathControl::continuous)
                 tolerance = std::max(tolerance, (rack.config().jerk_limited() ? 1 : 0.25) * move.tolerance_mm);
@@ -273,11 +275,24 @@ TEST_P(StreamExecutorTest, GoesAsWrittenWhileM49TakesTheOverridesAway) {
     EXPECT_NEAR(seconds("M49\n" + cut + "M2\nG1 X0\n", 0.25, 0.1), alone, 0.05);
 }
 
+TEST(ProgramFeed, EndsAProgramWhoseDrillingCyclesHaveNoEnd) {
+    Watched w(router());
+    control::gcode::Settings settings = w.stream->fresh_settings();
+    settings.max_steps = 100;
+    const std::string drills = "G21 G90 F600 G99\no1 repeat [1000]\nG81 X1 Z1 R2 L200\no1 endrepeat\nM2\n";
+    control::ProgramFeed feed(*w.stream, drills, settings, "part.ngc");
+    const auto fed = feed.feed();
+    ASSERT_FALSE(fed);
+    EXPECT_NE(fed.error().message.find("most of them of drilling cycles"), std::string::npos) << fed.error().text();
+    EXPECT_EQ(fed.error().location.line, 4);
+    EXPECT_FALSE(feed.more());
+}
+
 TEST_P(StreamExecutorTest, StandsStillForOutputsAtOnceAndContinuesThroughThoseOfAMove) {
     const auto run = [](const std::string& between) {
         Watched w(router(GetParam()));
         std::vector<double> at;
-        w.stream->on_event([&](const control::gcode::CanonCall& step) {
+        w.stream->on_event([&](const control::gcode::CanonCall& step, std::int64_t) {
             if (step.kind == control::gcode::CanonCallKind::output)
                 at.push_back(w.rack.axes()[0].machine->position(w.rack.kernel().now()));
         });
@@ -305,7 +320,7 @@ TEST_P(StreamExecutorTest, StandsStillForOutputsAtOnceAndContinuesThroughThoseOf
 TEST_P(StreamExecutorTest, PausesAtM0UntilAResume) {
     Watched w(router(GetParam()));
     std::vector<control::gcode::CanonCallKind> seen;
-    w.stream->on_event([&](const control::gcode::CanonCall& step) { seen.push_back(step.kind); });
+    w.stream->on_event([&](const control::gcode::CanonCall& step, std::int64_t) { seen.push_back(step.kind); });
     int waits = 0;
     drive_all(w, "G21 G90 F3000\nG1 X10 M3 S1000\nM0\nG1 X20\nM2\n", [&] {
         if (w.stream->state() != ExecutionState::paused) return;

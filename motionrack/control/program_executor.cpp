@@ -7,79 +7,6 @@
 
 namespace motionrack::control {
 
-namespace {
-
-std::string override_words(const gcode::CanonCall& step) {
-    const bool on = step.value != 0;
-    switch (step.port) {
-        case 48:
-        case 49:
-            return fmt::format("overrides {} (M{})", on ? "on" : "off: feeds and rapids as programmed", step.port);
-        case 50:
-            return fmt::format("feed override {} (M50)", on ? "on" : "off: feeds and rapids as programmed");
-        case 51:
-            return fmt::format("spindle override {} (M51)", on ? "on" : "off");
-        case 52:
-            return "adaptive feed off (M52)";
-        default:
-            return fmt::format("feed stop switch {} (M53)", on ? "on" : "off");
-    }
-}
-
-int output_code(const gcode::CanonCall& step) {
-    if (step.analog) return step.with_motion ? 67 : 68;
-    return (step.with_motion ? 62 : 64) + (step.value == 0);
-}
-
-std::string input_words(const gcode::CanonCall& step) {
-    const char* kind = step.analog ? "analog" : "digital";
-    if (step.value < 0) return fmt::format("{} input {} (M66): timed out, not connected; #5399 is -1", kind, step.port);
-    return fmt::format("{} input {} (M66): {:g}, not connected", kind, step.port, step.value);
-}
-
-std::string words_of(const gcode::CanonCall& step) {
-    using gcode::CanonCallKind;
-    switch (step.kind) {
-        case CanonCallKind::comment:
-            return fmt::format("comment: {}", step.text);
-        case CanonCallKind::message:
-            return fmt::format("message: {}", step.text);
-        case CanonCallKind::spindle_speed:
-            return fmt::format("spindle speed {} rpm", step.speed_rpm);
-        case CanonCallKind::spindle:
-            if (step.spindle == gcode::Spindle::off) return "spindle off";
-            return fmt::format("spindle {} at {} rpm",
-                               step.spindle == gcode::Spindle::clockwise ? "clockwise" : "counter-clockwise",
-                               step.speed_rpm);
-        case CanonCallKind::coolant:
-            return fmt::format("coolant: mist {}, flood {}", step.mist ? "on" : "off", step.flood ? "on" : "off");
-        case CanonCallKind::tool_select:
-            return fmt::format("tool {} selected", step.tool);
-        case CanonCallKind::tool_number:
-            return fmt::format("tool {} is in the spindle", step.tool);
-        case CanonCallKind::tool_change:
-            return fmt::format("tool {} changed in", step.tool);
-        case CanonCallKind::overrides:
-            return override_words(step);
-        case CanonCallKind::output:
-            return fmt::format("{} output {} to {:g} (M{})", step.analog ? "analog" : "digital", step.port, step.value,
-                               output_code(step));
-        case CanonCallKind::input:
-            return input_words(step);
-        case CanonCallKind::pause:
-            return "pause (M0): not held in simulated time, the program continues";
-        case CanonCallKind::optional_pause:
-            return "optional pause (M1): not enabled, the program continues";
-        case CanonCallKind::end:
-            return "end of program";
-        case CanonCallKind::move:
-            break;
-    }
-    return {};
-}
-
-}  // namespace
-
 ProgramExecutor::ProgramExecutor(AxisGroup& axes, const ExecutorSettings& settings) : axes_(axes), settings_(settings) {
     plan_from(settings.gcode.start);
 }
@@ -128,14 +55,7 @@ Result<void> ProgramExecutor::stopped() {
 }
 
 void ProgramExecutor::remember(const gcode::CanonCall& step, ProgramResult& run) {
-    note({step.line, blocks_ - 1, words_of(step)}, run);
-}
-
-void ProgramExecutor::note(ProgramEvent event, ProgramResult& run) {
-    if (run.events.size() < settings_.event_limit)
-        run.events.push_back(std::move(event));
-    else
-        ++run.events_left_out;
+    run.add(ProgramEvent{step.line, blocks_ - 1, event_text(step)});
 }
 
 Result<void> ProgramExecutor::take(const gcode::CanonCall& step, ProgramResult& run) {
@@ -169,9 +89,8 @@ Result<void> ProgramExecutor::probe(const gcode::CanonCall& step, gcode::Program
     const Point stopped_at = axes_.commanded_position();
     reader.set_probe_result(outcome.hit, outcome.at, stopped_at);
     plan_from(stopped_at);
-    if (run.probes.size() < settings_.event_limit) run.probes.push_back({step.line, step.probe, outcome});
+    run.add(ProgramProbe{step.line, step.probe, outcome}, blocks_ - 1);
     const std::string what = probe_text(step.probe, outcome);
-    note({step.line, blocks_ - 1, what}, run);
     if (outcome.hit || !gcode::probe_must(step.probe)) return {};
     return fail(ErrorKind::machine, fmt::format("In line {} the {}. Nothing after it was executed.", step.line, what),
                 {step.line, 1});

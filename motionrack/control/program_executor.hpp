@@ -13,25 +13,11 @@
 #include <motionrack/control/axis_group.hpp>
 #include <motionrack/control/gcode/program_reader.hpp>
 #include <motionrack/control/look_ahead_planner.hpp>
+#include <motionrack/control/program_result.hpp>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace motionrack::control {
-
-/// A canonical call other than motion, in program order, with the number of the last planned move before it.
-struct ProgramEvent {
-    int line = 0;
-    std::int64_t after_move = -1;
-    std::string text;  ///< "spindle clockwise at 12000 rpm", "message: clamp the part"
-};
-
-/// A probing move of the program.
-struct ProgramProbe {
-    int line = 0;
-    gcode::Probe probe = gcode::Probe::none;
-    ProbeResult outcome;
-};
 
 struct ExecutorSettings {
     gcode::Settings gcode;  ///< limits, start position, offsets
@@ -40,19 +26,7 @@ struct ExecutorSettings {
     const std::atomic<bool>* stop =
         nullptr;  ///< stop requested: a jerk-limited trajectory decelerates on the path, otherwise each axis on its own
     const std::atomic<bool>* halted = nullptr;  ///< the machine requests a stop, with the same effect
-    double accel_reserve = 0;        ///< share of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
-    std::size_t event_limit = 2000;  ///< maximum number of stored events; later ones are only counted
-};
-
-/// Result of a program run.
-struct ProgramResult {
-    PlanSummary plan;
-    std::int64_t lines = 0;  ///< lines read
-    std::int64_t moves = 0;  ///< moves read, without dwells
-    std::vector<ProgramEvent> events;
-    std::int64_t events_left_out = 0;
-    std::vector<ProgramProbe> probes;  ///< limited to the same number as the events
-    bool ended = false;                ///< by M2 or M30
+    double accel_reserve = 0;  ///< share of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
 };
 
 class ProgramExecutor {
@@ -83,7 +57,6 @@ class ProgramExecutor {
     void report_move(const PlannedMove& planned);
     Result<void> probe(const gcode::CanonCall& step, gcode::ProgramReader& reader, ProgramResult& run);
     void plan_from(const Point& start);
-    void note(ProgramEvent event, ProgramResult& run);
     void remember(const gcode::CanonCall& step, ProgramResult& run);
 
     AxisGroup& axes_;

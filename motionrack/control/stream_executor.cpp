@@ -39,7 +39,7 @@ StreamExecutor::StreamExecutor(AxisGroup& axes, Interrupt& host, const StreamExe
 gcode::Outcome<void> StreamExecutor::line(std::string_view text, std::int32_t number) {
     text_ = text;
     if (gcode::Outcome<void> read = interpreter_.line(text_, number); !read) return read;
-    unpulled_ = true;
+    unpulled_ = line_begins_ = true;
     pull_steps();
     return {};
 }
@@ -53,14 +53,14 @@ gcode::Outcome<void> StreamExecutor::line(std::string_view text, std::int32_t nu
         return read;
     }
     if (gcode::Outcome<void> taken = program_flow.line_accepted(interpreter_); !taken) return taken;
-    unpulled_ = true;
+    unpulled_ = line_begins_ = true;
     pull_steps();
     return {};
 }
 
 gcode::Outcome<void> StreamExecutor::program_over() {
     if (gcode::Outcome<void> done = interpreter_.finish(); !done) return done;
-    unpulled_ = true;
+    unpulled_ = line_begins_ = true;
     pull_steps();
     return {};
 }
@@ -71,7 +71,7 @@ void StreamExecutor::move(const Move& move) {
     step.move = move;
     begin_cut(step, true);
     interpreter_.resync_position(move.end);
-    unpulled_ = true;
+    unpulled_ = line_begins_ = true;
     pull_steps();
 }
 
@@ -84,6 +84,7 @@ void StreamExecutor::pull_steps() {
         const CanonCall* step = unpulled_ ? interpreter_.pull() : nullptr;
         unpulled_ = step != nullptr;
         if (step == nullptr) return;
+        further_steps_ += !std::exchange(line_begins_, false);
         if (step->probe != gcode::Probe::none) {
             probe_waits_ = true;
             ++moves_;
@@ -97,6 +98,7 @@ void StreamExecutor::pull_steps() {
             if (step->kind != CanonCallKind::move) continue;
             ++moves_;
             entries_.back().step.move.index = read_++;
+            if (on_move_) on_move_(entries_.back().step.move, read_to_);
         }
     }
 }
@@ -232,7 +234,7 @@ Result<ExecutionState> StreamExecutor::submit(const PlannedMove& planned) {
     if (!path_begun_) {
         if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
         path_begun_ = true;
-        first_block_ = 0;
+        path_block_ += std::exchange(first_block_, 0);
         block_began_ = never;
         blocks_.clear();
     }
@@ -259,6 +261,8 @@ Result<ExecutionState> StreamExecutor::finish_path() {
     take_move_starts();
     if (!finished) return interrupted(finished.error());
     path_begun_ = false;
+    first_block_ += static_cast<std::int64_t>(blocks_.size());
+    blocks_.clear();
     if (interpolator_) pop_driven(interpolator_->generator().first_pending_move());
     while (handed_ > 0) pop();
     if (single_block_ && has_work() && request_ == StopRequest::none) return state_ = ExecutionState::paused;
@@ -289,13 +293,13 @@ Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
     request_ = StopRequest::none;
     stop_flag_ = false;
     path_begun_ = false;
-    if (!held) {
-        forget();
-        if (error.kind == ErrorKind::stopped) return state_;
-        return tl::unexpected<Error>(error);
-    }
-    keep_rest_of_path();
-    return state_ = ExecutionState::feed_hold;
+    if (held) keep_rest_of_path();
+    first_block_ += static_cast<std::int64_t>(blocks_.size());
+    blocks_.clear();
+    if (held) return state_ = ExecutionState::feed_hold;
+    forget();
+    if (error.kind == ErrorKind::stopped) return state_;
+    return tl::unexpected<Error>(error);
 }
 
 void StreamExecutor::forget() {
@@ -370,7 +374,7 @@ void StreamExecutor::pop() {
     } else {
         line_driven_ = front.step.line;
         front.step.text = front.text;
-        if (on_event_) on_event_(front.step);
+        if (on_event_) on_event_(front.step, path_block_ + first_block_ - 1);
     }
     entries_.pop_front();
     planned_ -= planned_ > 0;

@@ -98,7 +98,8 @@ class StreamExecutor {
     /// Enables single block: a pause after each line.
     void set_single_block(bool on) { single_block_ = on; }
     bool has_work() const { return !entries_.empty() || unpulled_; }
-    std::size_t entries() const { return entries_.size(); }
+    /// Returns the number of calls read so far, without the first one of each line.
+    std::int64_t further_steps() const { return further_steps_; }
     const ProbeReport& last_probe() const { return last_probe_; }
     /// Returns true while a probing move was read but has not ended.
     bool probe_pending() const { return probe_waits_; }
@@ -132,9 +133,11 @@ class StreamExecutor {
     gcode::Settings fresh_settings() const;
 
     /// Sets the callback for program events (spindle, message, tool, end), called in order when the machine passes
-    /// them.
-    void on_event(std::function<void(const gcode::CanonCall&)> call) { on_event_ = std::move(call); }
-    /// Sets the callback for each move as it was read, before it is sliced.
+    /// them. `after_move`: number of the last planned move before it, of all that were submitted, from 0; -1: none.
+    void on_event(std::function<void(const gcode::CanonCall& event, std::int64_t after_move)> call) {
+        on_event_ = std::move(call);
+    }
+    /// Sets the callback for each move (dwells included) as it was read, before it is sliced.
     void on_move(std::function<void(const Move& move, const Point& start)> call) { on_move_ = std::move(call); }
 
   private:
@@ -200,21 +203,24 @@ class StreamExecutor {
     /// Submitted moves from the executing one on: their numbers in the interpolator_, or how many of entries_
     /// each covers.
     std::deque<std::int64_t> blocks_;
-    std::int64_t first_block_ = 0;    ///< number of the first of blocks_, as the axes count
+    std::int64_t first_block_ = 0;    ///< number of the first of blocks_, as the axes count: in the present path
+    std::int64_t path_block_ = 0;     ///< number of the present path's first block, over all paths
     bool trajectory_ends_ = true;     ///< the interpolator was flushed
     Instant last_push_{};             ///< instant of the last push to the interpolator
     std::deque<QueueEntry> entries_;  ///< front: executing
     std::optional<Cutting> cutting_;
-    std::string text_;             ///< text of the last line
-    Point read_to_ = {};           ///< end of the last entry
-    std::int64_t read_ = 0;        ///< moves and dwells
+    std::string text_;       ///< text of the last line
+    Point read_to_ = {};     ///< end of the last entry
+    std::int64_t read_ = 0;  ///< moves and dwells
+    std::int64_t further_steps_ = 0;
     std::size_t moves_ = 0;        ///< in entries_ and cutting_
     std::size_t planned_ = 0;      ///< entries pushed to the planner
     std::size_t handed_ = 0;       ///< entries up to the last submitted move
     Instant block_began_ = never;  ///< start of the executing move; never: none has started
     std::int32_t line_driven_ = 0;
-    bool unpulled_ = false;    ///< some calls of the last line are not yet in entries_
-    bool path_begun_ = false;  ///< the axes have moves without a finish()
+    bool unpulled_ = false;     ///< some calls of the last line are not yet in entries_
+    bool line_begins_ = false;  ///< none of them is
+    bool path_begun_ = false;   ///< the axes have moves without a finish()
     bool single_block_ = false;
     bool probe_waits_ = false;  ///< entries_ has a probing move, followed only by events
     ProbeReport last_probe_;
@@ -222,7 +228,7 @@ class StreamExecutor {
     StopRequest request_ = StopRequest::none;
     ExecutionState state_ = ExecutionState::idle;
     std::atomic<bool> stop_flag_{false};
-    std::function<void(const gcode::CanonCall&)> on_event_;
+    std::function<void(const gcode::CanonCall&, std::int64_t)> on_event_;
     std::function<void(const Move&, const Point&)> on_move_;
 };
 

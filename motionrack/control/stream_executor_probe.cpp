@@ -14,6 +14,7 @@ Result<ExecutionState> StreamExecutor::probe() {
     if (!planned) return interrupted(planned.error());
     if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
     state_ = ExecutionState::running;
+    ++first_block_;
     last_probe_.runs = true;
     const Result<ProbeResult> outcome = axes_->probe(*planned, gcode::probe_leaves(step.probe));
     last_probe_.runs = false;

@@ -157,8 +157,7 @@ Result<void> Machine::begin_program(std::string text, std::string name) {
     if (!check.problems.empty()) return tl::unexpected<Error>(check.problems.front());
     program_ = std::move(text);
     program_name_ = std::move(name);
-    program_flow_.emplace(program_, stream_->fresh_settings(), program_name_);
-    over_ = false;
+    program_feed_.emplace(*stream_, program_, stream_->fresh_settings(), program_name_);
     line_count_ = static_cast<std::int32_t>(check.lines);
     program_runs_ = true;
     enter(MachineState::moving);
@@ -215,8 +214,7 @@ void Machine::stop(const StopOrigin& by) {
 
 void Machine::cancel(const StopOrigin& by) {
     const StopReport report = stop_report(now(), by, state_, at_work());
-    program_flow_.reset();
-    over_ = false;
+    program_feed_.reset();
     program_runs_ = false;
     stream_->stop();
     home_stop_ = true;

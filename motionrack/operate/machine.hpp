@@ -20,6 +20,7 @@
 #include <memory>
 #include <motionrack/control/gcode/program_reader.hpp>
 #include <motionrack/control/no_axes.hpp>
+#include <motionrack/control/program_feed.hpp>
 #include <motionrack/control/stream_executor.hpp>
 #include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
@@ -211,8 +212,7 @@ class Machine {
     std::string ordered_by_;                     ///< description of the stop command in force; empty: none
     // program, or single lines
     std::string program_, program_name_;
-    std::optional<control::gcode::ProgramFlow> program_flow_;
-    bool over_ = false;  ///< the last line was read, but motion that waits for a next line is pending
+    std::optional<control::ProgramFeed> program_feed_;  ///< until the last line was read
     std::int32_t line_count_ = 0;
     bool program_runs_ = false, single_block_ = false;
     Instant last_line_{};

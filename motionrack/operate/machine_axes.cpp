@@ -44,7 +44,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     settings.accel_reserve = rack::accel_reserve_of(rack_);
     settings.jerk_limited = config.jerk_limited();
     stream_ = std::make_unique<control::StreamExecutor>(*group, host_of(rack_), settings);
-    stream_->on_event([this](const control::gcode::CanonCall& step) { pass_event(step); });
+    stream_->on_event([this](const control::gcode::CanonCall& step, std::int64_t) { pass_event(step); });
     group_holds_ = true;
     rack_.set_stop_flag(stream_->stop_flag());
     rack_.on_slice(settings_.slice, [this] { slice(); });

@@ -97,7 +97,7 @@ void Machine::step() {
     if (!positions_wanted_.empty()) return change_positions();
     const bool drives = stream_->state() == control::ExecutionState::running ||
                         (state_ == MachineState::moving && stream_->state() == control::ExecutionState::feed_hold);
-    if (program_flow_ || over_ || stream_->has_work() || drives) return drive();
+    if (program_feed_ || stream_->has_work() || drives) return drive();
     if (stop_wanted_) return wait_for_standstill();
     const rack::StopLatch& latch = rack_.stop_latch();
     const bool another_cause = state_ == MachineState::error_stop && stop_ordered_ && !latch.is_ordered();
@@ -159,25 +159,15 @@ void Machine::wait_for_standstill() {
 // ---- lines and programs
 
 void Machine::feed_program() {
-    std::string_view text;
-    while (program_flow_ && stream_->has_room()) {
-        if (program_flow_->next(text)) {
-            if (const auto read = stream_->line(text, program_flow_->number(), *program_flow_); !read)
-                return failed(read.error());
-            continue;
-        }
-        program_flow_.reset();
-        over_ = true;
-    }
-    if (!over_ || !stream_->has_room()) return;
-    over_ = false;
-    if (const auto done = stream_->program_over(); !done) return failed(done.error());
+    if (!program_feed_) return;
+    if (const auto fed = program_feed_->feed(); !fed) return failed(fed.error());
+    if (!program_feed_->more()) program_feed_.reset();
 }
 
 void Machine::drive() {
     feed_program();
     if (state_ == MachineState::error_stop) stream_->stop();  // discards what it has, so that no step waits for it
-    const bool more = program_flow_ || over_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
+    const bool more = program_feed_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
     const Result<control::ExecutionState> driven = stream_->drive(more);
     if (!driven) return failed(driven.error());
     if (*driven != control::ExecutionState::running) rack_.stop_latch().settle();  // a stop by a card also ends a hold
@@ -194,7 +184,7 @@ void Machine::drive() {
             host_of(rack_).pass(settings_.slice);
             break;
         case control::ExecutionState::idle:
-            if (program_flow_ || over_) break;
+            if (program_feed_) break;
             if (program_runs_) stream_->reset_after_program();
             program_runs_ = false;
             if (jogs_.any()) break;  // commanded while this motion ended
@@ -273,8 +263,7 @@ std::string Machine::at_work() const {
 
 void Machine::failed(const Error& error) {
     const std::string what = at_work();
-    program_flow_.reset();
-    over_ = false;
+    program_feed_.reset();
     program_runs_ = false;
     const rack::StopLatch& latch = rack_.stop_latch();
     const bool known =

@@ -132,7 +132,7 @@ class MotionCard : public Card {
     virtual double accel_reserve() const = 0;
     /// Rate changes above this limit (pulses/s) are steps, not ramps.
     virtual double jump_hz(const RackConfig& config) const = 0;
-    /// Number of commands given to the card for the present path.
+    /// Number of commands given to the card for paths, since path_axes().
     virtual std::int64_t segments() const = 0;
     /// Pulses of a channel in both directions since the start.
     virtual std::int64_t pulses_made(int channel) = 0;

@@ -1,8 +1,8 @@
 // Feeds lines while the stream executor has room, and runs it.
 #include <fmt/format.h>
 
-#include <motionrack/control/gcode/language/program_flow.hpp>
 #include <motionrack/control/geometry.hpp>
+#include <motionrack/control/program_feed.hpp>
 #include <motionrack/rack/interactive_run.hpp>
 #include <utility>
 
@@ -10,7 +10,6 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr std::size_t max_probes = 2000;           // reported probes
 constexpr Duration poll_period = milliseconds(1);  // time step of an idle host
 
 }  // namespace
@@ -18,17 +17,25 @@ constexpr Duration poll_period = milliseconds(1);  // time step of an idle host
 Result<void> PathObserver::begin() {
     pull();
     first_ = blocks_;
-    return axes_.begin();
+    return note(axes_.begin());
 }
 
 Result<void> PathObserver::follow(const control::PlannedMove& move) {
     on_block_(blocks_++, move);
-    return axes_.follow(move);
+    return note(axes_.follow(move));
 }
 
 Result<control::ProbeResult> PathObserver::probe(const control::PlannedMove& move, bool release) {
     on_block_(blocks_++, move);
-    return axes_.probe(move, release);
+    Result<control::ProbeResult> outcome = axes_.probe(move, release);
+    MOTIONRACK_CHECK(note(outcome ? Result<void>() : Result<void>(tl::unexpected<Error>(outcome.error()))));
+    return outcome;
+}
+
+Result<void> PathObserver::note(Result<void> outcome) {
+    stopped_.reset();
+    if (!outcome && outcome.error().kind == ErrorKind::stopped) stopped_ = outcome.error();
+    return outcome;
 }
 
 void PathObserver::pull() {
@@ -51,109 +58,121 @@ std::vector<control::MoveStart> PathObserver::observed() {
 
 namespace {
 
-/// Feeds the lines of a program to the stream executor as it accepts them.
-class Feeder {
-  public:
-    Feeder(std::string_view text, const control::gcode::Settings& settings, const std::string& file,
-           control::ProgramResult& run)
-        : program_flow_(text, settings, file), run_(run) {}
+/// Returns the axes' own report of a stop, or that they stopped on the path.
+tl::unexpected<Error> stopped_in(const control::StreamExecutor& stream, const PathObserver& path,
+                                 const control::MachineLimits& limits, const std::string& file) {
+    Error error =
+        path.stopped()
+            ? *path.stopped()
+            : control::stopped_on_request(stream.current_line(), stream.interpreter().position(), limits).value();
+    error.file = file;
+    return tl::unexpected<Error>(std::move(error));
+}
 
-    void feed(control::StreamExecutor& stream) {
-        std::string_view text;
-        while (more_ && stream.has_room()) {
-            if (!program_flow_.next(text)) {
-                more_ = false;
-                if (auto over = stream.program_over(); !over) {
-                    problem_ = over.error();
-                    problem_->file = program_flow_.file();
-                }
-                break;
+/// Runs a program with commands, and notes its probing moves.
+class LiveRun {
+  public:
+    LiveRun(control::StreamExecutor& stream, const PathObserver& path, Interrupt& host, const CommandSchedule& commands,
+            control::ProgramResult& run)
+        : stream_(stream), path_(path), host_(host), commands_(commands), run_(run) {}
+
+    Result<void> drive(control::ProgramFeed& feed, const control::gcode::Settings& settings, const std::string& file) {
+        using control::ExecutionState;
+        Result<void> program;  // its first error
+        while (true) {
+            if (!commands_.stopped() && feed.more())
+                if (auto fed = feed.feed(); !fed) program = tl::unexpected<Error>(fed.error());
+            const Result<ExecutionState> driven = stream_.drive(feed.more());
+            note_probe();
+            if (!driven) return tl::unexpected<Error>(driven.error());
+            switch (*driven) {
+                case ExecutionState::waiting:
+                    host_.pass(poll_period);
+                    break;
+                case ExecutionState::feed_hold:
+                    MOTIONRACK_CHECK(held(file));
+                    break;
+                case ExecutionState::paused:
+                    stream_.resume();
+                    break;  // M0: no operator exists in simulated time
+                case ExecutionState::running:
+                    break;
+                case ExecutionState::idle:
+                    if (commands_.stopped()) return stopped_in(stream_, path_, settings.limits, file);
+                    if (!feed.more()) return program;
+                    break;
             }
-            if (auto read = stream.line(text, program_flow_.number(), program_flow_); !read) {
-                problem_ = read.error();
-                more_ = false;
-                return;
-            }
-            run_.lines = program_flow_.highest_line();
-            const control::gcode::Block& block = stream.interpreter().block();
-            if (block.has_m(control::gcode::m_stop))
-                run_.ended =
-                    run_.ended || block.m[control::gcode::m_stop] == 2 || block.m[control::gcode::m_stop] == 30;
         }
-        if (!more_ && !problem_ && program_flow_.has_faults()) problem_ = program_flow_.take_fault();
     }
-    bool more() const { return more_; }
-    Result<void> outcome() const { return problem_ ? Result<void>(tl::unexpected<Error>(*problem_)) : Result<void>(); }
 
   private:
-    control::gcode::ProgramFlow program_flow_;
+    void note_probe() {
+        const control::ProbeReport& probe = stream_.last_probe();
+        if (!probe.begun || probe.count == probes_) return;
+        probes_ = probe.count;
+        run_.add(control::ProgramProbe{probe.line, probe.probe, probe.outcome}, path_.blocks() - 1);
+    }
+
+    /// Continues, or waits for a command.
+    Result<void> held(const std::string& file) {
+        if (!commands_.holds())
+            stream_.resume();
+        else if (!commands_.pending())
+            return fail(ErrorKind::stopped,
+                        fmt::format("The job was held in line {}, and not resumed.", stream_.current_line()),
+                        {stream_.current_line(), 0}, file);
+        else
+            host_.pass(poll_period);
+        return {};
+    }
+
+    control::StreamExecutor& stream_;
+    const PathObserver& path_;
+    Interrupt& host_;
+    const CommandSchedule& commands_;
     control::ProgramResult& run_;
-    bool more_ = true;
-    std::optional<Error> problem_;
+    std::int64_t probes_ = stream_.last_probe().count;
 };
 
-Result<void> drive(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& commands, Feeder& feeder,
-                   const std::string& file, control::ProgramResult& run) {
-    using control::ExecutionState;
-    std::int64_t probes = stream.last_probe().count;
-    while (true) {
-        if (!commands.stopped()) feeder.feed(stream);
-        const Result<ExecutionState> driven = stream.drive(feeder.more());
-        if (const control::ProbeReport& probe = stream.last_probe(); probe.begun && probe.count != probes) {
-            probes = probe.count;
-            if (run.probes.size() < max_probes) run.probes.push_back({probe.line, probe.probe, probe.outcome});
-        }
-        if (!driven) return tl::unexpected<Error>(driven.error());
-        switch (*driven) {
-            case ExecutionState::waiting:
-                host.pass(poll_period);
-                break;
-            case ExecutionState::feed_hold:
-                if (!commands.holds())
-                    stream.resume();
-                else if (!commands.pending())
-                    return fail(ErrorKind::stopped,
-                                fmt::format("The job was held in line {}, and not resumed.", stream.current_line()),
-                                {stream.current_line(), 0}, file);
-                else
-                    host.pass(poll_period);
-                break;
-            case ExecutionState::paused:
-                stream.resume();
-                break;  // M0: no operator exists in simulated time
-            case ExecutionState::running:
-                break;
-            case ExecutionState::idle:
-                if (commands.stopped())
-                    return fail(ErrorKind::stopped,
-                                fmt::format("Stopped on request in line {}; the axes stopped along the path.",
-                                            stream.current_line()),
-                                {stream.current_line(), 0}, file);
-                if (!feeder.more()) return feeder.outcome();
-                break;
-        }
+/// Counts a programmed move. Planned moves do not count: a long move is planned in slices, and its remainder again
+/// after a feed hold.
+void count_programmed(const control::Move& move, const control::Point& start, control::ProgramResult& run) {
+    const control::Geometry path = control::geometry_of(move, start);
+    if (move.kind == control::MoveKind::dwell) {
+        ++run.plan.dwells;
+        return;
     }
+    ++run.moves;
+    run.plan.moves += path.shape != control::PathShape::nothing;
+    const bool linear = start[0] != move.end[0] || start[1] != move.end[1] || start[2] != move.end[2] ||
+                        move.kind == control::MoveKind::arc;
+    if (linear) run.plan.path_mm += path.length;
 }
 
 }  // namespace
 
-Result<void> drive_live(control::StreamExecutor& stream, Interrupt& host, const CommandSchedule& commands,
-                        std::string_view text, const control::gcode::Settings& settings, const std::string& file,
-                        control::ProgramResult& run, const OnProgrammedMove& on_move) {
-    // The remainder of a move is planned again after a feed hold; the programmed move counts.
-    double path_mm = 0;
+Result<void> drive_live(control::StreamExecutor& stream, const PathObserver& path, Interrupt& host,
+                        const CommandSchedule& commands, std::string_view text,
+                        const control::gcode::Settings& settings, const std::string& file, control::ProgramResult& run,
+                        const OnProgrammedMove& on_move) {
+    control::ProgramResult programmed;
     stream.on_move([&](const control::Move& move, const control::Point& start) {
         on_move(move, start);
-        ++run.moves;
-        const bool linear = start[0] != move.end[0] || start[1] != move.end[1] || start[2] != move.end[2] ||
-                            move.kind == control::MoveKind::arc;
-        if (linear) path_mm += control::geometry_of(move, start).length;
+        count_programmed(move, start, programmed);
     });
-    Feeder feeder(text, settings, file, run);
-    const Result<void> ended = drive(stream, host, commands, feeder, file, run);
+    stream.on_event([&](const control::gcode::CanonCall& event, std::int64_t after_move) {
+        run.add(control::ProgramEvent{event.line, after_move, control::event_text(event)});
+    });
+    control::ProgramFeed feed(stream, text, settings, file);
+    const Result<void> ended = LiveRun(stream, path, host, commands, run).drive(feed, settings, file);
     stream.on_move({});
-    run.plan.moves = run.moves;
-    run.plan.path_mm = path_mm;
+    stream.on_event({});
+    run.moves = programmed.moves;
+    run.lines = feed.lines();
+    run.ended = feed.ended();
+    run.plan.moves = programmed.plan.moves;
+    run.plan.dwells = programmed.plan.dwells;
+    run.plan.path_mm = programmed.plan.path_mm;
     return ended;
 }
 

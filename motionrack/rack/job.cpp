@@ -142,7 +142,7 @@ Result<void> Job::drive_by_stream(control::AxisGroup& axes, const control::Execu
     const OnProgrammedMove on_move = [&](const control::Move& move, const control::Point& start) {
         programmed(move, start, out);
     };
-    const Result<void> ended = drive_live(stream, host, *settings_.commands, settings_.program, settings.gcode,
+    const Result<void> ended = drive_live(stream, watch, host, *settings_.commands, settings_.program, settings.gcode,
                                           settings_.program_name, out.run, on_move);
     out.time = rack_.kernel().now() - began_;
     listen(watch.observed());
@@ -178,6 +178,7 @@ void Job::restart() {
 
 /// Call after the card's setup, which sets its counters.
 void Job::note_before() {
+    segments_before_ = rack_.axes().front().card->segments();
     before_.clear();
     for (const RunningAxis& axis : rack_.axes())
         before_.push_back({axis.card->pulses_made(axis.channel), axis.turned_by().count(rack_.kernel().now()),
@@ -210,7 +211,7 @@ JobOutcome Job::run() {
 
     out.path_mm = out.run.plan.path_mm;
     out.max_deviation = monitor_->max_deviation();
-    out.chip_segments = rack_.axes().front().card->segments();
+    out.chip_segments = rack_.axes().front().card->segments() - segments_before_;
     out.events = rack_.kernel().events() - events_before;
     out.trace_hash = rack_.kernel().trace_hash();
     const std::vector<DrivenOtherwise> others = take_path_warnings(**axes, out);

@@ -150,6 +150,7 @@ class Job {
     PositionReference reference_;
     control::Point start_ = {};   ///< start of the program
     std::vector<Before> before_;  ///< one per axis
+    std::int64_t segments_before_ = 0;
     std::uint64_t reported_ = 0;  ///< kernel conditions reported before this program
     std::unique_ptr<Monitor> monitor_;
     std::vector<control::PlannedMove> planned_;

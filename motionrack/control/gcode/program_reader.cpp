@@ -1,6 +1,4 @@
 // Pulls the calls line by line.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <motionrack/control/gcode/empty_program.hpp>
 #include <motionrack/control/gcode/program_reader.hpp>
@@ -8,28 +6,13 @@
 namespace motionrack::control::gcode {
 
 ProgramReader::ProgramReader(std::string_view text, const Settings& settings, std::string file)
-    : program_flow_(text, settings, std::move(file)), interpreter_(settings), max_steps_(settings.max_steps) {}
-
-/// Checks the budget of cycles; calls of other lines are covered by the allowance for each line.
-bool ProgramReader::within_budget() const {
-    constexpr std::int64_t steps_of_a_line = 16;
-    return further_steps_ <= max_steps_ + steps_of_a_line * lines_read_;
-}
+    : program_flow_(text, settings, std::move(file)), interpreter_(settings), budget_(settings.max_steps) {}
 
 Outcome<const CanonCall*> ProgramReader::next_from_lines() {
     std::string_view text;
     while (program_flow_.next(text)) {
-        ++lines_read_;
-        if (!within_budget()) {
-            Problem problem;
-            set_problem(problem, text, 0, GrblStatus::unsupported,
-                        fmt::format("the lines up to here have made {} moves, most of them of drilling cycles, without "
-                                    "an end of the program; check that its loops end. The rest was not read",
-                                    further_steps_));
-            program_flow_.line_rejected(text, problem);
-            program_flow_.end();
-            return tl::unexpected<Problem>(std::move(problem));
-        }
+        if (auto taken = budget_.take_line(text, further_steps_, program_flow_); !taken)
+            return tl::unexpected<Problem>(std::move(taken.error()));
         if (auto done = interpreter_.line(text, program_flow_.number(), Language::program); !done) {
             program_flow_.line_rejected(text, done.error());
             const std::size_t column = static_cast<std::size_t>(done.error().location.column);

@@ -3,6 +3,7 @@
 
 #include <motionrack/control/gcode/interpreter.hpp>
 #include <motionrack/control/gcode/language/program_flow.hpp>
+#include <motionrack/control/gcode/step_budget.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,13 +46,11 @@ class ProgramReader {
 
   private:
     Outcome<const CanonCall*> next_from_lines();
-    bool within_budget() const;
 
     ProgramFlow program_flow_;
     Interpreter interpreter_;
-    std::int64_t max_steps_;
+    StepBudget budget_;
     std::int64_t further_steps_ = 0;  ///< calls other than the first one of each line
-    std::int64_t lines_read_ = 0;
 };
 
 /// Findings of one pass over a program.

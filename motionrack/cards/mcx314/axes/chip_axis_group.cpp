@@ -95,7 +95,6 @@ Result<void> ChipAxisGroup::begin() {
     segmenter_.emplace(map_, range_, expected_, host_);
     starts_.clear();
     last_block_ = -2;
-    segments_ = 0;
     chain_running_ = false;
     auxiliary_ = -1;
     driver_.WriteMode1(xyzu, field("WR1", "DEND").mask);
