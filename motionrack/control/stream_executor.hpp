@@ -1,8 +1,8 @@
 // Executes G-code line by line. The operator can hold, override or stop it at any time.
 //
-//   line ──Interpreter──► moves, in slices ──► entries ──LookAheadPlanner──► PlannedMove ──► AxisGroup
-//                                                 ▲                       │
-//                   hold: remaining path ─────────┴── from its standstill ┘
+//   line ──Interpreter──► moves, in slices ──► MoveQueue ──PathPlan──► PlannedMove ──► AxisGroup
+//                                                  ▲                        │
+//                   hold: remaining path ──────────┴── from its standstill ─┘
 //
 //   running ──hold()──► feed_hold ──resume()──► running        single block or M0: paused ──resume()──► running
 //   stop(), a fault: idle
@@ -11,22 +11,20 @@
 // whole moves, and an override applies from the next one on. With each submitted move the known path ends at
 // standstill: if the sender falls silent, the machine stops at the end of the last line.
 //
-// With limited jerk, a TrajectoryInterpolator replaces the planner: it holds, resumes and overrides along its own
-// trajectory. The axes then decelerate on their own only when the machine stops them.
+// A plan with limited jerk holds, resumes and overrides along its own trajectory. The axes then decelerate on their own
+// only when the machine stops them.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
-#include <deque>
 #include <functional>
+#include <memory>
 #include <motionrack/base/port.hpp>
 #include <motionrack/control/axis_group.hpp>
 #include <motionrack/control/gcode/language/program_flow.hpp>
-#include <motionrack/control/look_ahead_planner.hpp>
-#include <motionrack/control/path_limits.hpp>
+#include <motionrack/control/move_queue.hpp>
+#include <motionrack/control/path_plan.hpp>
 #include <motionrack/control/probing.hpp>
-#include <motionrack/control/trajectory/trajectory_interpolator.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -72,9 +70,7 @@ class StreamExecutor {
     // ---- callable at any time, also from a slice of the host's time while drive() runs
     /// Returns true if line() accepts another line. After a probing line only when its move has ended, because the next
     /// lines start where it stopped.
-    bool has_room() const {
-        return entries_.size() < settings_.max_entries && !unpulled_ && !probe_waits_ && request_ != StopRequest::stop;
-    }
+    bool has_room() const { return queue_.has_room() && request_ != StopRequest::stop; }
     /// Checks a line and queues its moves. Requires has_room(). On an error the line has no effect.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number);
     /// As above, for a line of a whole program whose control flow `program_flow` tracks, in the complete language.
@@ -97,16 +93,16 @@ class StreamExecutor {
     void set_overrides(double feed, double rapid);
     /// Enables single block: a pause after each line.
     void set_single_block(bool on) { single_block_ = on; }
-    bool has_work() const { return !entries_.empty() || unpulled_; }
+    bool has_work() const { return queue_.has_work(); }
     /// Returns the number of calls read so far, without the first one of each line.
-    std::int64_t further_steps() const { return further_steps_; }
+    std::int64_t further_steps() const { return queue_.further_steps(); }
     const ProbeReport& last_probe() const { return last_probe_; }
     /// Returns true while a probing move was read but has not ended.
-    bool probe_pending() const { return probe_waits_; }
+    bool probe_pending() const { return queue_.probe_waits(); }
     /// Returns the number of moves and dwells, as read, that have not ended.
-    std::size_t moves() const { return moves_; }
+    std::size_t moves() const { return queue_.moves(); }
     /// Returns 0 if no line was executed since reset_modal_state().
-    std::int32_t current_line() const { return line_driven_; }
+    std::int32_t current_line() const { return queue_.line(); }
     ExecutionState state() const { return state_; }
     const gcode::Interpreter& interpreter() const { return interpreter_; }
     const std::atomic<bool>* stop_flag() const { return &stop_flag_; }
@@ -135,101 +131,41 @@ class StreamExecutor {
     /// Sets the callback for program events (spindle, message, tool, end), called in order when the machine passes
     /// them. `after_move`: number of the last planned move before it, of all that were submitted, from 0; -1: none.
     void on_event(std::function<void(const gcode::CanonCall& event, std::int64_t after_move)> call) {
-        on_event_ = std::move(call);
+        queue_.on_event(std::move(call));
     }
     /// Sets the callback for each move (dwells included) as it was read, before it is sliced.
-    void on_move(std::function<void(const Move& move, const Point& start)> call) { on_move_ = std::move(call); }
+    void on_move(std::function<void(const Move& move, const Point& start)> call) { queue_.on_move(std::move(call)); }
 
   private:
     enum class StopRequest : std::uint8_t { none, hold, stop };
-    /// A slice of a move, or an event.
-    struct QueueEntry {
-        gcode::CanonCall step;
-        std::string text;
-        Point start = {};
-        double seconds = 0;       ///< duration of a submitted move
-        std::int64_t number = 0;  ///< number of a move in the trajectory interpolator
-        bool last = true;         ///< last slice of its move
-        bool by_hand = false;     ///< not from a line
-        bool is_probe() const { return step.probe != gcode::Probe::none; }
-        bool is_overridable() const { return !by_hand && step.overridable; }
-        bool is_move() const { return step.kind == gcode::CanonCallKind::move && !is_probe(); }
-        /// Applies the overrides to its move.
-        void override_feed(Move& move, double feed, double rapid) const {
-            if (is_overridable()) move.feed = step.move.feed * feed;
-            if (step.overridable) move.rapid_override = rapid;
-        }
-    };
-    /// A move that is being sliced.
-    struct Cutting {
-        gcode::CanonCall step;
-        Geometry path;
-        int pieces = 1, done = 0;
-        bool by_hand = false;
-    };
 
-    void pull_steps();
-    void begin_cut(const gcode::CanonCall& step, bool by_hand);
-    void add_piece();
-    Result<void> fill_planner();
+    Result<void> fill_plan();
     bool stops_before(const QueueEntry& entry) const;
-    bool time_left();
+    bool time_left() const;
     Result<ExecutionState> submit(const PlannedMove& planned);
     Result<ExecutionState> finish_path();
     Result<ExecutionState> enter_standstill();
     Result<ExecutionState> probe();
     Result<ExecutionState> interrupted(const Error& error);
-    void keep_rest_of_path();
     void forget();
     void take_move_starts();
-    void pop();
-    void new_planner(const Point& position);
-
-    // jerk-limited execution
-    Result<ExecutionState> drive_trajectory(bool more_may_come);
-    Result<void> fill_interpolator();
-    bool trajectory_may_wait(bool rest_follows) const;
-    void pop_before_block(std::int64_t block);
-    void pop_driven(std::int64_t first_pending_move);
-    TrajectoryInterpolator make_interpolator(const Point& position) const;
 
     AxisGroup* axes_;
     Interrupt& host_;
     StreamExecutorSettings settings_;
-    PathLimits limits_;
     gcode::Interpreter interpreter_;
-    LookAheadPlanner planner_;
-    std::optional<TrajectoryInterpolator> interpolator_;  ///< if the jerk is limited; planner_ is unused then
-    /// Submitted moves from the executing one on: their numbers in the interpolator_, or how many of entries_
-    /// each covers.
-    std::deque<std::int64_t> blocks_;
-    std::int64_t first_block_ = 0;    ///< number of the first of blocks_, as the axes count: in the present path
-    std::int64_t path_block_ = 0;     ///< number of the present path's first block, over all paths
-    bool trajectory_ends_ = true;     ///< the interpolator was flushed
-    Instant last_push_{};             ///< instant of the last push to the interpolator
-    std::deque<QueueEntry> entries_;  ///< front: executing
-    std::optional<Cutting> cutting_;
-    std::string text_;       ///< text of the last line
-    Point read_to_ = {};     ///< end of the last entry
-    std::int64_t read_ = 0;  ///< moves and dwells
-    std::int64_t further_steps_ = 0;
-    std::size_t moves_ = 0;        ///< in entries_ and cutting_
-    std::size_t planned_ = 0;      ///< entries pushed to the planner
-    std::size_t handed_ = 0;       ///< entries up to the last submitted move
+    MoveQueue queue_;
+    std::unique_ptr<PathPlan> plan_;
+    std::string text_;             ///< text of the last line
+    std::int64_t path_block_ = 0;  ///< number of the present path's first planned move, over all paths
     Instant block_began_ = never;  ///< start of the executing move; never: none has started
-    std::int32_t line_driven_ = 0;
-    bool unpulled_ = false;     ///< some calls of the last line are not yet in entries_
-    bool line_begins_ = false;  ///< none of them is
-    bool path_begun_ = false;   ///< the axes have moves without a finish()
+    bool path_begun_ = false;      ///< the axes have moves without a finish()
     bool single_block_ = false;
-    bool probe_waits_ = false;  ///< entries_ has a probing move, followed only by events
     ProbeReport last_probe_;
-    double feed_ = 1, rapid_ = 1, feed_wanted_ = 1, rapid_wanted_ = 1;
+    double feed_ = 1, rapid_ = 1;
     StopRequest request_ = StopRequest::none;
     ExecutionState state_ = ExecutionState::idle;
     std::atomic<bool> stop_flag_{false};
-    std::function<void(const gcode::CanonCall&, std::int64_t)> on_event_;
-    std::function<void(const Move&, const Point&)> on_move_;
 };
 
 }  // namespace motionrack::control

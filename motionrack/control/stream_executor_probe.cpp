@@ -6,15 +6,15 @@
 namespace motionrack::control {
 
 Result<ExecutionState> StreamExecutor::probe() {
-    const gcode::CanonCall step = entries_.front().step;
-    line_driven_ = step.line;
+    const gcode::CanonCall step = queue_.front().step;
+    queue_.set_line(step.line);
     last_probe_ = {last_probe_.count, step.line, step.probe, false, false, {}};
     const Result<PlannedMove> planned =
         plan_single_move(*axes_, settings_.gcode.limits, settings_.accel_reserve, step.move);
     if (!planned) return interrupted(planned.error());
     if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
     state_ = ExecutionState::running;
-    ++first_block_;
+    queue_.pass_blocks(1);
     last_probe_.runs = true;
     const Result<ProbeResult> outcome = axes_->probe(*planned, gcode::probe_leaves(step.probe));
     last_probe_.runs = false;
@@ -25,13 +25,9 @@ Result<ExecutionState> StreamExecutor::probe() {
         return interrupted(outcome.error());
     }
     last_probe_ = {last_probe_.count + 1, step.line, step.probe, true, false, *outcome};
-    probe_waits_ = false;
-    --moves_;
-    entries_.pop_front();
-    planned_ = handed_ = 0;
+    queue_.end_probe(position);
     interpreter_.set_probe_result(outcome->hit, outcome->at, position);
-    read_to_ = position;
-    new_planner(position);
+    plan_->reset(*axes_, position);
     if (!last_probe_.failed()) return state_ = has_work() ? ExecutionState::running : ExecutionState::idle;
     forget();
     return fail(

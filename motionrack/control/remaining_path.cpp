@@ -1,7 +1,6 @@
-// Remaining path of a stream after a feed hold.
+// Remaining path of a queue of moves after the axes were stopped on it.
 #include <limits>
-#include <motionrack/control/split_move.hpp>
-#include <motionrack/control/stream_executor.hpp>
+#include <motionrack/control/move_queue.hpp>
 
 namespace motionrack::control {
 
@@ -20,21 +19,14 @@ bool turns_back(const Geometry& before, const Geometry& after, const PulsesPerUn
 
 }  // namespace
 
-/// Keeps the remaining path. The axes stopped on the last started move, or already on the one queued behind it.
-void StreamExecutor::keep_rest_of_path() {
-    const Point position = axes_->commanded_position();
-    while (!entries_.empty() && !entries_.front().is_move()) pop();
-    PulsesPerUnit pulses;
-    for (std::size_t i = 0; i < pulses.size(); ++i) pulses[i] = settings_.gcode.limits[i].pulses_per_unit;
-    // A planned move may cover several moves.
-    std::int64_t known = blocks_.empty() ? 1 : blocks_.front();
-    known += blocks_.size() > 1 ? blocks_[1] : 0;
+/// Returns the index of the submitted move on which a position lies, of the first `moves`.
+std::size_t MoveQueue::nearest_move(const Point& position, const PulsesPerUnit& pulses, std::int64_t moves) const {
     std::size_t nearest = 0;
     double min_distance = std::numeric_limits<double>::infinity();
     Geometry path;  // the nearest path
-    for (std::size_t i = 0; i < handed_ && known > 0; ++i) {
+    for (std::size_t i = 0; i < submitted_ && moves > 0; ++i) {
         if (!entries_[i].is_move()) continue;
-        --known;
+        --moves;
         const Geometry here = geometry_of(entries_[i].step.move, entries_[i].start);
         const double off = nearest_point(here, position, pulses).distance;
         // A return stroke is as near as the outward one, of which nothing may be skipped.
@@ -43,8 +35,15 @@ void StreamExecutor::keep_rest_of_path() {
         nearest = i;
         path = here;
     }
-    for (; nearest > 0; --nearest) pop();
-    if (!entries_.empty() && handed_ > 0) {
+    return nearest;
+}
+
+void MoveQueue::keep_rest(const Point& position, std::int64_t moves) {
+    while (!entries_.empty() && !entries_.front().is_move()) pop();
+    PulsesPerUnit pulses;
+    for (std::size_t i = 0; i < pulses.size(); ++i) pulses[i] = settings_.limits[i].pulses_per_unit;
+    for (std::size_t nearest = nearest_move(position, pulses, moves); nearest > 0; --nearest) pop();
+    if (!entries_.empty() && submitted_ > 0) {
         QueueEntry& entry = entries_.front();
         entry.step.move = remaining_move(entry.step.move, geometry_of(entry.step.move, entry.start), position, pulses);
         entry.start = position;
@@ -52,8 +51,7 @@ void StreamExecutor::keep_rest_of_path() {
             geometry_of(entry.step.move, position).shape == PathShape::nothing)
             pop();
     }
-    planned_ = handed_ = 0;
-    new_planner(position);
+    planned_ = submitted_ = 0;
 }
 
 }  // namespace motionrack::control
