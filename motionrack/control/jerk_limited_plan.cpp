@@ -30,19 +30,21 @@ class JerkLimitedPlan final : public PathPlan {
     bool has_room() const override { return interpolator_.has_room(); }
     Result<void> push(QueueEntry& entry) override;
     bool waits(const MoveQueue& queue, const PathOutlook& outlook) override;
-    bool pull(PlannedMove& planned) override { return interpolator_.pull(planned, true); }
+    bool pull(const MoveQueue&, const PathOutlook&, PlannedMove& planned) override {
+        return interpolator_.pull(planned, true);
+    }
     bool may_go_on(const PathOutlook& outlook) const override {
         return !ends_ && !outlook.rest_known && !outlook.brakes;
     }
 
-    void submit(MoveQueue&, const PlannedMove& planned) override { blocks_.push_back(planned.number); }
+    void submit(MoveQueue&, const PlannedMove& planned) override { blocks_.push_back({planned.number}); }
     /// One move becomes several blocks.
     void pass(MoveQueue& queue, std::int64_t blocks) override {
         for (; blocks > 0; --blocks) {
             blocks_.pop_front();
             queue.pass_blocks(1);
         }
-        queue.pop_before(blocks_.front());
+        queue.pop_before(blocks_.front().number);
     }
     void finish(MoveQueue& queue) override {
         interrupt(queue);

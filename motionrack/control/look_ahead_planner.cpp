@@ -280,6 +280,38 @@ bool LookAheadPlanner::pull_early(PlannedMove& planned) {
     return pull(planned);
 }
 
+bool LookAheadPlanner::is_from_rest_to_rest(std::size_t count, bool path_ends) const {
+    if (count == 0 || count > size()) return false;
+    if ((head_ == ready_ ? committed_ : slot(head_).entry_velocity) != 0) return false;
+    const std::uint64_t end = head_ + count;
+    for (std::uint64_t i = head_; i < end; ++i)
+        if (slot(i).moves != 1) return false;
+    return end == tail_ ? path_ends : nodes_[end & mask_].junction == 0;
+}
+
+void LookAheadPlanner::pull_as_one(std::size_t count, PlannedMove& planned) {
+    const PlannedMove& first = slot(head_);
+    planned = PlannedMove{};
+    planned.move = slot(head_ + count - 1).move;
+    planned.start = first.start;
+    planned.number = first.number;
+    planned.moves = static_cast<std::int32_t>(count);
+    const Geometry path = geometry_of(planned.move, planned.start);
+    const AlongPathLimits along = along_of(path, planned.move);
+    planned.length = path.length;
+    planned.accel = along.accel;
+    planned.jerk = along.jerk;
+    const Node whole = node_of(path, along, 0, {});
+    double top = std::min(whole.cruise, 0.5 * whole.reach);
+    if (top <= 0) top = std::min(whole.cruise, planned.accel * planned.length);
+    planned.cruise_velocity = std::sqrt(top);
+    head_ += count;
+    if (ready_ >= head_) return;
+    ready_ = head_;
+    settled_ = std::max(settled_, ready_);
+    committed_ = 0;
+}
+
 void LookAheadPlanner::change_feeds(const std::function<void(PlannedMove&)>& change) {
     if (head_ == tail_) return;
     if (head_ != ready_) committed_ = slot(head_).entry_velocity;

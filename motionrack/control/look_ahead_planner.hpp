@@ -47,6 +47,13 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     /// it has no move.
     bool pull_early(PlannedMove& planned);
 
+    /// Returns true if the next `count` moves are whole moves as they were pushed, the path stands still before them,
+    /// and behind them whatever is pushed. `path_ends`: nothing more is pushed.
+    bool is_from_rest_to_rest(std::size_t count, bool path_ends) const;
+    /// Pulls the next `count` moves, for which is_from_rest_to_rest() holds, as one: parts of a straight move. Its
+    /// profile is that of the whole.
+    void pull_as_one(std::size_t count, PlannedMove& planned);
+
     /// Excludes the next pushed move from merging.
     void keep_apart() { apart_ = true; }
 
@@ -90,6 +97,7 @@ class LookAheadPlanner final : public TrajectoryPlanner {
 
     Node& node(std::uint64_t index) { return nodes_[index & mask_]; }
     PlannedMove& slot(std::uint64_t index) { return slots_[index & mask_]; }
+    const PlannedMove& slot(std::uint64_t index) const { return slots_[index & mask_]; }
     void append_dwell(const Move& move);
     void append(const Move& move, const Geometry& path, const AlongPathLimits& along, double junction);
     bool merge(const Move& move, const Geometry& path);

@@ -79,6 +79,8 @@ class MoveQueue {
     /// Number of entries that the plan has taken.
     std::size_t planned() const { return planned_; }
     bool all_planned() const { return planned_ == entries_.size(); }
+    /// Returns true if no call of the last line is left to read.
+    bool all_read() const { return !unpulled_ && !cutting_; }
     QueueEntry& next() { return entries_[planned_]; }
     void take_next() { ++planned_; }
     /// Number of entries up to the last submitted move, if the plan counts them.

@@ -2,6 +2,7 @@
 // queue of moves learns which of its entries the machine has passed.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <memory>
 #include <motionrack/base/port.hpp>
@@ -21,6 +22,7 @@ struct PathPlanSettings {
 /// Circumstances in which the next planned move is due.
 struct PathOutlook {
     bool rest_known = false;  ///< all that follows is in the queue, or known to be nothing yet
+    bool path_ends = false;   ///< nothing follows the planned moves before a standstill, whatever is read
     bool brakes = false;      ///< a hold or a stop was requested
     bool begun = false;       ///< the axes have moves of this path
     bool time_left = false;   ///< the axes need no further move yet
@@ -50,8 +52,8 @@ class PathPlan {
     /// Returns true if the next planned move should wait for the moves behind it, so that it need not end at
     /// standstill.
     virtual bool waits(const MoveQueue& queue, const PathOutlook& outlook) = 0;
-    /// Returns the next planned move; false if there is none.
-    virtual bool pull(PlannedMove& planned) = 0;
+    /// Returns the next planned move; false if there is none. It may stand for several moves of the queue.
+    virtual bool pull(const MoveQueue& queue, const PathOutlook& outlook, PlannedMove& planned) = 0;
     /// Returns true if the path may go on although no planned move is ready.
     virtual bool may_go_on(const PathOutlook& outlook) const = 0;
 
@@ -65,6 +67,12 @@ class PathPlan {
     virtual void finish(MoveQueue& queue) = 0;
     /// Number of moves in the executing submitted move and the one behind it, of which the axes may have begun both.
     virtual std::int64_t moves_begun() const { return 0; }
+    /// Rapid override of the submitted rapids that cannot be slowed down on their way, the highest; 0: there are none.
+    double rapid_override() const {
+        double highest = 0;
+        for (const SubmittedMove& block : blocks_) highest = std::max(highest, block.rapid_override);
+        return highest;
+    }
     /// Notes that the path was interrupted.
     void interrupt(MoveQueue& queue) {
         queue.pass_blocks(static_cast<std::int64_t>(blocks_.size()));
@@ -72,8 +80,11 @@ class PathPlan {
     }
 
   protected:
-    /// Submitted moves from the executing one on: a number for each, which its plan defines.
-    std::deque<std::int64_t> blocks_;
+    struct SubmittedMove {
+        std::int64_t number = 0;    ///< defined by each plan
+        double rapid_override = 0;  ///< override of a whole rapid that is subject to it
+    };
+    std::deque<SubmittedMove> blocks_;  ///< submitted moves from the executing one on
 };
 
 /// Makes a plan with trapezoidal profiles.

@@ -97,6 +97,16 @@ void StreamExecutor::stop() {
 void StreamExecutor::set_overrides(double feed, double rapid) {
     feed_ = std::clamp(feed, 0.01, 2.0);
     rapid_ = std::clamp(rapid, 0.01, 1.0);
+    slow_rapid_down();
+}
+
+/// A rapid that was submitted as a whole can only be slowed down by a standstill on its path.
+void StreamExecutor::slow_rapid_down() {
+    if (request_ != StopRequest::none || !path_begun_ || plan_->rapid_override() <= rapid_) return;
+    take_move_starts();  // a rapid that has ended does not count
+    if (plan_->rapid_override() <= rapid_) return;
+    request_ = StopRequest::replan;
+    stop_flag_ = true;
 }
 
 // ---- execution
@@ -112,9 +122,10 @@ Result<ExecutionState> StreamExecutor::drive(bool more_may_come) {
         forget();
         return tl::unexpected<Error>(filled.error());
     }
-    const PathOutlook outlook{!more_may_come || !queue_.all_planned(), brakes, path_begun_, time_left()};
+    PathOutlook outlook{!more_may_come || !queue_.all_planned(), false, brakes, path_begun_, time_left()};
+    outlook.path_ends = queue_.all_planned() ? !more_may_come && queue_.all_read() : plan_->has_room();
     if (plan_->waits(queue_, outlook)) return state_ = ExecutionState::waiting;
-    if (PlannedMove planned; plan_->pull(planned)) return submit(planned);
+    if (PlannedMove planned; plan_->pull(queue_, outlook, planned)) return submit(planned);
     const bool may_go_on = plan_->may_go_on(outlook);
     if (path_begun_) {
         // The end of the known path, or standstill of a plan that brakes itself.
@@ -156,6 +167,7 @@ Result<ExecutionState> StreamExecutor::submit(const PlannedMove& planned) {
         plan_->begin_path();
     }
     plan_->submit(queue_, planned);
+    slow_rapid_down();  // the override may have changed while the path was begun
     state_ = ExecutionState::running;
     const Result<void> followed = axes_->follow(planned);
     take_move_starts();
@@ -169,6 +181,10 @@ Result<ExecutionState> StreamExecutor::finish_path() {
     if (!finished) return interrupted(finished.error());
     path_begun_ = false;
     plan_->finish(queue_);
+    if (request_ == StopRequest::replan) {
+        request_ = StopRequest::none;
+        stop_flag_ = false;
+    }
     if (single_block_ && has_work() && request_ == StopRequest::none) return state_ = ExecutionState::paused;
     if (request_ == StopRequest::hold && !has_work()) plan_->resume();
     return enter_standstill();
@@ -193,16 +209,18 @@ Result<ExecutionState> StreamExecutor::enter_standstill() {
 }
 
 Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
-    const bool held = !plan_->brakes_itself() && error.kind == ErrorKind::stopped && request_ == StopRequest::hold;
+    const bool holds = request_ == StopRequest::hold;
+    const bool kept =
+        !plan_->brakes_itself() && error.kind == ErrorKind::stopped && (holds || request_ == StopRequest::replan);
     request_ = StopRequest::none;
     stop_flag_ = false;
     path_begun_ = false;
-    if (held) {
+    if (kept) {
         const Point position = axes_->commanded_position();
         queue_.keep_rest(position, plan_->moves_begun());
         plan_->interrupt(queue_);
         plan_->reset(*axes_, position);
-        return state_ = ExecutionState::feed_hold;
+        return state_ = holds ? ExecutionState::feed_hold : ExecutionState::running;
     }
     plan_->interrupt(queue_);
     forget();

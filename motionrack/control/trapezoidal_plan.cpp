@@ -27,16 +27,16 @@ class TrapezoidalPlan final : public PathPlan {
         if (outlook.rest_known || outlook.brakes || planner_.size() > 1) return false;
         return outlook.begun ? outlook.time_left : planner_.size() > 0;
     }
-    bool pull(PlannedMove& planned) override { return planner_.pull_early(planned); }
+    bool pull(const MoveQueue& queue, const PathOutlook& outlook, PlannedMove& planned) override;
     bool may_go_on(const PathOutlook&) const override { return false; }
 
     void submit(MoveQueue& queue, const PlannedMove& planned) override {
-        blocks_.push_back(planned.moves);
+        blocks_.push_back({planned.moves, pulled_override_});
         queue.submit(planned.moves, seconds_of(planned));
     }
     void pass(MoveQueue& queue, std::int64_t blocks) override {
         for (; blocks > 0; --blocks) {
-            queue.pop_moves(blocks_.front());
+            queue.pop_moves(blocks_.front().number);
             blocks_.pop_front();
             queue.pass_blocks(1);
         }
@@ -46,7 +46,7 @@ class TrapezoidalPlan final : public PathPlan {
         queue.pop_submitted();
     }
     std::int64_t moves_begun() const override {
-        return (blocks_.empty() ? 1 : blocks_.front()) + (blocks_.size() > 1 ? blocks_[1] : 0);
+        return (blocks_.empty() ? 1 : blocks_.front().number) + (blocks_.size() > 1 ? blocks_[1].number : 0);
     }
 
   private:
@@ -57,7 +57,31 @@ class TrapezoidalPlan final : public PathPlan {
     PathPlanSettings settings_;
     LookAheadPlanner planner_;  ///< a block's number: how many moves of the queue it covers
     double feed_ = 1, rapid_ = 1;
+    double pulled_override_ = 0;  ///< SubmittedMove::rapid_override of the move that was pulled last
 };
+
+/// Returns the number of slices of the rapid that is the next move; 0: the next move is another one, or not all of it
+/// is planned. `at`: set to its first entry.
+std::size_t slices_of_rapid(const MoveQueue& queue, std::size_t& at) {
+    at = queue.submitted();
+    while (at < queue.planned() && !queue[at].is_move()) ++at;
+    for (std::size_t i = at; i < queue.planned(); ++i) {
+        if (!queue[i].is_move() || queue[i].step.move.kind != MoveKind::rapid) return 0;
+        if (queue[i].last) return i + 1 - at;
+    }
+    return 0;
+}
+
+/// A rapid from standstill to standstill is pulled as a whole, so that it can be one S-curve of the card.
+bool TrapezoidalPlan::pull(const MoveQueue& queue, const PathOutlook& outlook, PlannedMove& planned) {
+    std::size_t at = 0;
+    const std::size_t slices = slices_of_rapid(queue, at);
+    pulled_override_ = 0;
+    if (slices < 2 || !planner_.is_from_rest_to_rest(slices, outlook.path_ends)) return planner_.pull_early(planned);
+    planner_.pull_as_one(slices, planned);
+    if (queue[at].step.overridable) pulled_override_ = planned.move.rapid_override;
+    return true;
+}
 
 void TrapezoidalPlan::set_overrides(MoveQueue& queue, double feed, double rapid, bool brakes) {
     if (brakes || (feed == feed_ && rapid == rapid_)) return;

@@ -12,6 +12,8 @@ namespace motionrack::rack {
 namespace {
 
 constexpr Duration slice = milliseconds(50);
+/// More than a trajectory with limited jerk looks ahead, so that its plan does not depend on the queue.
+constexpr std::size_t max_jerk_limited_entries = 40'000;
 
 /// Deviation of the pulses allowed beyond the program's tolerance, mm. Ends and chords are on whole pulses, and an arc
 /// that the card cannot draw is as close as its chords.
@@ -133,6 +135,7 @@ Result<void> Job::drive_by_stream(control::AxisGroup& axes, const control::Execu
     stream_settings.gcode = settings.gcode;
     stream_settings.accel_reserve = settings.accel_reserve;
     stream_settings.jerk_limited = settings.jerk_limited;
+    if (settings.jerk_limited) stream_settings.max_entries = max_jerk_limited_entries;
     Interrupt& host = rack_.axes().front().card->host();
     control::StreamExecutor stream(watch, host, stream_settings);
     rack_.set_stop_flag(stream.stop_flag());

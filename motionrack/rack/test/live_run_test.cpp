@@ -1,6 +1,8 @@
 // What a run with commands reports: the same as one without them.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <motionrack/rack/test/lossless_support.hpp>
 
 namespace motionrack::rack {
@@ -27,7 +29,7 @@ TEST_P(LiveRunReport, HasTheEventsTheDwellsAndTheMovesOfTheProgram) {
         "G21 G90 G61 T2 M6\n(MSG,clamp the part)\nS12000 M3\nM8\nG0 X10 Y5\nG4 P0.25\nG1 X30 F3000\nM64 P1\n"
         "G1 X20 Y10 (a comment)\nM0\nM5 M9\nG0 X0 Y0\nG1 X0 Y0 F600\nM2\nG1 X5\n";
     const RackConfig config = router(GetParam());
-    const JobOutcome plain = drive(config, program).outcome,
+    const JobOutcome plain = drive_with(config, program, {}).outcome,
                      live = drive_with(config, program, {after_the_end}).outcome;
     ASSERT_TRUE(plain.ended) << plain.ended.error().text();
     ASSERT_TRUE(live.ended) << live.ended.error().text();
@@ -64,6 +66,48 @@ TEST_P(LiveRunReport, SaysOfAStopOnRequestWhereTheAxesStopped) {
     EXPECT_THAT(stopped.outcome.ended.error().message,
                 HasSubstr("Stopped on request in line 2; the axes stopped along the path at X "));
     EXPECT_EQ(stopped.outcome.ended.error().location.line, 2);
+}
+
+TEST(LiveRun, DrivesARapidFromRestToRestAsARunWithoutCommandsDoes) {
+    const std::string program = "G21 G90\nG0 X100 Y40\nM2\n";
+    const JobOutcome plain = drive_with(router(), program, {}).outcome,
+                     live = drive_with(router(), program, {after_the_end}).outcome;
+    ASSERT_TRUE(live.ended) << live.ended.error().text();
+    EXPECT_EQ(live.chip_segments, plain.chip_segments);
+    EXPECT_EQ(live.time, plain.time);
+    EXPECT_EQ(live.trace_hash, plain.trace_hash);
+}
+
+TEST(LiveRun, SlowsARapidDownOnItsWayAndEndsItExactly) {
+    const std::string program = "G21 G90\nG0 X200\nM2\n";
+    const JobOutcome plain = drive_with(router(), program, {}).outcome;
+    const double asked = to_seconds(plain.time) / 2, slow = 0.25 * plain.axes[0].limits.max_velocity;
+    double slow_at = -1, fastest_after = 0;
+    const auto look = [&](Rack& rack) {
+        const double now = to_seconds(rack.kernel().now()), velocity = rack.axes()[0].machine->velocity();
+        if (now > asked && slow_at < 0 && velocity <= slow * 1.01) slow_at = now;
+        if (slow_at > 0) fastest_after = std::max(fastest_after, velocity);
+    };
+    const Driven driven = drive_with(router(), program, {{asked, "rapid=0.25"}, after_the_end}, look);
+    expect_end(driven, 200, 0);
+    expect_lossless(driven);
+    EXPECT_GT(slow_at, asked);
+    EXPECT_LT(slow_at, asked + 0.5);
+    EXPECT_LE(fastest_after, slow * 1.01);
+    EXPECT_GT(fastest_after, slow * 0.9);
+    EXPECT_GT(driven.outcome.time, plain.time + whole_seconds(1));
+}
+
+TEST(LiveRun, WithLimitedJerkPlansALongProgramAsARunWithoutCommandsDoes) {
+    std::string program = "G21 G90 G64 P0.01\nG0 X190 Y100\nG1 F6000\n";
+    for (int i = 1; i <= 4'000; ++i)  // more lines than the queue of slices has
+        program += fmt::format("X{:.4f} Y{:.4f}\n", 150 + 40 * std::cos(i * 0.0075), 100 + 40 * std::sin(i * 0.0075));
+    program += "M2\n";
+    const JobOutcome plain = drive_with(router("jerk_limited"), program, {}).outcome,
+                     live = drive_with(router("jerk_limited"), program, {after_the_end}).outcome;
+    ASSERT_TRUE(live.ended) << live.ended.error().text();
+    EXPECT_EQ(live.time, plain.time);
+    EXPECT_EQ(live.trace_hash, plain.trace_hash);
 }
 
 }  // namespace
