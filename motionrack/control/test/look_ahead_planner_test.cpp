@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <motionrack/control/look_ahead_planner.hpp>
+#include <motionrack/control/split_move.hpp>
 #include <vector>
 
 namespace motionrack::control {
@@ -65,6 +66,37 @@ TEST(LookAheadPlanner, AShortLineReachesOnlyTheTopOfItsTriangle) {
     const auto out = plan_path(path_machine(), {path_line_to(0.9, 0)});
     EXPECT_DOUBLE_EQ(out[0].cruise_velocity, 30);
     EXPECT_NEAR(seconds_of(out[0]), 2 * 30.0 / 1000, 1e-12);
+}
+
+TEST(LookAheadPlanner, PullsThePartsOfARapidAsTheWholeRapidWhereThePathRestsBehindIt) {
+    MachineLimits limits = path_machine();
+    for (AxisLimits& axis : limits) axis.max_jerk = 20'000;
+    Move rapid = path_line_to(100, 50);
+    rapid.kind = MoveKind::rapid;
+    const PlannedMove whole = plan_path(limits, {rapid}).at(0);
+    const Geometry path = geometry_of(rapid, Point{});
+    LookAheadPlanner planner(limits, Point{});
+    for (int i = 0; i < 4; ++i)
+        ASSERT_TRUE(planner.push(sub_move(rapid, path, i * path.length / 4, (i + 1) * path.length / 4)));
+    EXPECT_TRUE(planner.is_from_rest_to_rest(4, true));
+    EXPECT_FALSE(planner.is_from_rest_to_rest(4, false)) << "a next move may go on without a stop";
+    EXPECT_FALSE(planner.is_from_rest_to_rest(3, true));
+    ASSERT_TRUE(planner.push(path_line_to(100, 20)));
+    EXPECT_TRUE(planner.is_from_rest_to_rest(4, false)) << "the path rests in its corner";
+    PlannedMove planned;
+    planner.pull_as_one(4, planned);
+    EXPECT_EQ(planned.moves, 4);
+    EXPECT_EQ(planned.move.end, whole.move.end);
+    EXPECT_EQ(planned.length, whole.length);
+    EXPECT_EQ(planned.cruise_velocity, whole.cruise_velocity);
+    EXPECT_EQ(planned.accel, whole.accel);
+    EXPECT_GT(planned.jerk, 0);
+    EXPECT_EQ(planned.jerk, whole.jerk);
+    EXPECT_EQ(planned.entry_velocity, 0);
+    EXPECT_EQ(planned.exit_velocity, 0);
+    ASSERT_TRUE(planner.pull_early(planned));
+    EXPECT_EQ(planned.entry_velocity, 0);
+    EXPECT_DOUBLE_EQ(planned.length, 30);
 }
 
 TEST(LookAheadPlanner, TheSlowestAxisLimitsADiagonal) {
