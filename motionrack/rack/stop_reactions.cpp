@@ -5,6 +5,7 @@
 #include <array>
 #include <initializer_list>
 #include <motionrack/cards/ioflex02/map.hpp>
+#include <motionrack/cards/mcx314/chip/general_outputs.hpp>
 #include <motionrack/rack/grating_card.hpp>
 #include <motionrack/rack/ioflex02_card.hpp>
 #include <motionrack/rack/rack.hpp>
@@ -72,6 +73,12 @@ void clear_outputs(Rack& rack, const StopReaction&) {
                 found->write(low_and_high, 0);
 }
 
+void clear_general_outputs(Rack& rack, const StopReaction&) {
+    for (const auto& card : rack.cards())
+        if (auto* chip = dynamic_cast<mcx314::Chip*>(card->registers()); chip != nullptr)
+            mcx314::Chip::GeneralOutputs::clear(*chip);
+}
+
 // clang-format off
 constexpr std::array reactions = {
     StopReaction{"mcx314", to({emergency_stop}), category_0, StopBy::card,
@@ -81,6 +88,12 @@ constexpr std::array reactions = {
                  "the current segment; at standstill: motion is blocked", milliseconds(1), true},
     StopReaction{"mcx314", to({stop_command, drive_alarm, watchdog, following_error}), category_2, StopBy::drive,
                  "all axes decelerate along their path and hold their positions", a_slice, true},
+    StopReaction{"mcx314 outputs", to({emergency_stop}), category_0, StopBy::latch,
+                 "the general outputs OUT0 to OUT7 go low: servo-on and open brakes end", milliseconds(2), false,
+                 clear_general_outputs},
+    StopReaction{"mcx314 outputs", but_the_button, category_2, StopBy::card,
+                 "the general outputs keep their levels, because the ramp and holding a position need servo-on and "
+                 "open brakes", Duration{}},
     StopReaction{"databoard4002", to({emergency_stop}), category_0, StopBy::card,
                  "the relay disconnects the amplifier's voltage, at its input ems; the amplifier brakes the axis",
                  milliseconds(1), true},

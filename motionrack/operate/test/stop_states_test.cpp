@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/ioflex02/map.hpp>
+#include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/rack/card_types.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/ioflex02_card.hpp>
@@ -162,16 +163,17 @@ constexpr Source sources[] = {
      [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.push=1280", "Y")); }, nothing},
 };
 
+rack::RackConfig rack_with_everything() {
+    const rack::RackReading reading = rack::read_rack_text(everything);
+    EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
+    return *reading.config;
+}
+
 using Case = std::tuple<State, Source>;
 
 class StopInAState : public testing::TestWithParam<Case> {
   protected:
-    StopInAState() : o_(config()) {}
-    static rack::RackConfig config() {
-        const rack::RackReading reading = rack::read_rack_text(everything);
-        EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
-        return *reading.config;
-    }
+    StopInAState() : o_(rack_with_everything()) {}
     const State& state() const { return std::get<0>(GetParam()); }
     const Source& source() const { return std::get<1>(GetParam()); }
     double stop_s() const { return 0.45 + 0.6 * source().ahead_s; }
@@ -285,6 +287,31 @@ std::vector<Case> all_cases() {
 INSTANTIATE_TEST_SUITE_P(EveryState, StopInAState, testing::ValuesIn(all_cases()), [](const auto& each) {
     return std::string(std::get<0>(each.param).name) + "_by_" + std::string(std::get<1>(each.param).name);
 });
+
+/// Servo-on and brakes may hang on them.
+TEST(GeneralOutputs, GoLowAtAnEmergencyStopAndKeepTheirLevelsAtAllOtherStops) {
+    for (const Source& source : sources) {
+        SCOPED_TRACE(source.name);
+        const double stop = 0.45 + 0.6 * source.ahead_s;
+        const double expected = source.source == StopSource::emergency_stop ? 0 : 1;
+        Operated o(rack_with_everything());
+        o.at(0.004, [](Machine& m) {
+            EXPECT_TRUE(m.set_position('X', 100));
+            EXPECT_TRUE(m.set_position('Y', 0));
+        });
+        program(o, one_long_line);
+        o.at(0.3, [](Machine& m) { m.rack().card("m")->registers()->write(mcx314::reg::WR4, 0xFFFF); });
+        o.at(stop - source.ahead_s, source.begin);
+        for (const double after : {0.01, 0.08})  // in the ramp, and at standstill
+            o.at(stop + after, [&](Machine& m) {
+                EXPECT_TRUE(m.rack().stop_latch().latched());
+                for (const std::string channel : {"x", "y", "z", "u"})
+                    for (const char* output : {"out0", "out1", "out2", "out3"})
+                        EXPECT_EQ(*m.wires().get("m." + channel + output), expected) << channel << output << after;
+            });
+        o.run(stop + 0.1);
+    }
+}
 
 TEST(TableOfReactions, HasOneAnswerOfEachPartToEachSource) {
     std::set<std::string_view> parts;

@@ -79,11 +79,11 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void wanted_changed(int pin, bool wanted, Instant now) override;
     void sync(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
+    struct GeneralOutputs;  // general_outputs.hpp
 
   private:
     struct Inspected;  // inspect.cpp
-    static constexpr int emergency_pin = 100;
-    static constexpr int step_pin = 101;
+    static constexpr int emergency_pin = 100, step_pin = 101;
     static constexpr int encoder_pin = 120;  // + 2 * axis + (0 xeca, 1 xecb)
     static constexpr int output_pin = 200;   // + 16 * axis + (0 xpp, 1 xpm, 2 xdrive, 8 + n: nOUTn)
 

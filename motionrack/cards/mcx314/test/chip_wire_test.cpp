@@ -1,7 +1,9 @@
 // The chip from outside: pulse outputs, encoder inputs, general outputs, listeners and snapshots.
 #include <gtest/gtest.h>
 
+#include <motionrack/cards/mcx314/chip/general_outputs.hpp>
 #include <motionrack/cards/mcx314/test/chip_bench.hpp>
+#include <string>
 
 namespace motionrack::mcx314::outside {
 namespace {
@@ -118,6 +120,35 @@ TEST(ChipWires, GeneralOutputsFollowWr4AndWr3OrTheDrivesStatus) {
     ASSERT_EQ(changes.size(), 2u);
     EXPECT_EQ(changes[0].level, 1);
     EXPECT_EQ(changes[1].tick - changes[0].tick, 63'999);  // 100 units of V in 100 * 640 ticks, the first one included
+}
+
+TEST(ChipWires, ClearedGeneralOutputsAreLowAndTheSelectedAxesAndTheShownStatusStay) {
+    Bench b;
+    WireLog log(b.kernel);
+    Follower follower(b.kernel);
+    for (const char* wire : {"c.yout5", "c.uout7"}) follower.listen(wire);
+    b.start();
+    for (const char* wire : {"c.yout5", "c.uout7"}) follower.follow(wire, true);
+    b.write(4, 0xFFFF);
+    b.mode(X | Y | Z | U, 3, 0x0F04);  // OUT4..7 high, S-curve
+    b.mode(X, 3, 0x0F80);              // of X the status of the drive: CMP+ and CMP- without a move
+    const auto shown = b.level("xout4");
+    b.kernel.settle();
+    EXPECT_EQ(b.level("yout5"), 1);
+    b.command(Z, 0x0F);
+    Chip::GeneralOutputs::clear(b.chip);
+    b.kernel.settle();
+    for (const char channel : std::string("xyzu"))
+        for (int output = 0; output < (channel == 'x' ? 4 : 8); ++output)
+            EXPECT_EQ(b.level(channel + std::string("out") + std::to_string(output)), 0) << channel << output;
+    EXPECT_EQ(b.level("xout4"), shown);
+    EXPECT_EQ(b.chip.inspect("WR3", 0), 0x0080);
+    EXPECT_EQ(b.chip.inspect("WR3", 1), 0x0004) << "the other modes stay";
+    EXPECT_EQ(log.of("c.yout5").size(), 2u) << "whoever follows an output sees it fall";
+    EXPECT_EQ(log.of("c.uout7").size(), 2u);
+    b.write(3, 0x0100);
+    EXPECT_EQ(b.level("zout4"), 1) << "Z is still selected";
+    EXPECT_EQ(b.level("yout4"), 0);
 }
 
 TEST(ChipEncoder, EveryDivisionCountsItsEdges) {
