@@ -86,9 +86,24 @@ py::list conditions_of(RackHandle& world) {
     return out;
 }
 
+/// The axes that channels of original MCX314s drive, each with its counter and its velocity limit in pulses. An
+/// MCX314As may set its counters by itself.
+py::dict channels_of(const rack::RackConfig& config) {
+    py::dict out;
+    for (const rack::PulseLink& link : config.pulse_links) {
+        const rack::RackCard& card = config.cards[static_cast<std::size_t>(link.card)];
+        const rack::RackAxis& axis = config.axes[static_cast<std::size_t>(link.axis)];
+        if (card.type == "mcx314" && card.mcx314.variant == rack::Mcx314Variant::mcx314 && !axis.servo)
+            out[py::str(std::string(1, axis.letter))] =
+                py::make_tuple(card.name, fmt::format("{}.LP", "xyzu"[link.channel]), axis.max_pulse_hz());
+    }
+    return out;
+}
+
 py::dict config_of_world(RackHandle& world) {
     py::dict out;
     out["name"] = world.config().name;
+    out["channels"] = channels_of(world.config());
     py::dict cards, axes;
     for (const rack::RackCard& card : world.config().cards) cards[py::str(card.name)] = card.type;
     for (const rack::RackAxis& axis : world.config().axes)
