@@ -349,8 +349,11 @@ void Invariants::see_limits(std::size_t i, double velocity, double seconds, cons
               fmt::format("axis {} went at {:g} a second, above its {:g}", facts.letter, velocity, facts.max_velocity));
     if (jumped_ || last_seconds_ == 0) return;
     const double change = std::fabs(velocity - own_[i].velocity);
-    const double allowed = facts.max_accel * 1.05 * (seconds + last_seconds_) / 2 + facts.velocity_step * 1.15 +
-                           2 * rounding(i, seconds) + 2 * rounding(i, last_seconds_);
+    const double explained = facts.max_accel * 1.05 * (seconds + last_seconds_) / 2,
+                 step = facts.velocity_step * settings_.known.max_velocity_step * 1.15 + 2 * rounding(i, seconds) +
+                        2 * rounding(i, last_seconds_);
+    peak_accel_factor_ = std::max(peak_accel_factor_, (change - step) / explained);
+    const double allowed = explained * settings_.known.max_accel + step;
     if (change <= allowed) return;
     std::string text = fmt::format(
         "the velocity of axis {} changed from {:g} to {:g} a second within {:.4f} s, by {:g}; its limits explain {:g} "

@@ -71,6 +71,12 @@ struct AxisFacts {
     double following_alarm = 0;
 };
 
+/// Factors by which a run may exceed limits of its axes; 1: not at all. Known breaches stand in
+/// tests/known_breaches.txt.
+struct LimitFactors {
+    double max_accel = 1, max_velocity_step = 1;
+};
+
 struct Finding {
     Rule rule{};
     Instant at{};
@@ -83,6 +89,7 @@ class Invariants {
     struct Settings {
         double jerk_time_s = 0;              ///< time for a jerk-limited profile to start decelerating
         Duration obeyed = milliseconds(12);  ///< maximum delay from a stop to the start of deceleration
+        LimitFactors known = {};             ///< known breaches of the run
     };
     /// Reports each rule once.
     Invariants(std::vector<AxisFacts> axes, const Settings& settings, Report report);
@@ -101,6 +108,8 @@ class Invariants {
     /// Reports a rule that is checked elsewhere.
     void found(Rule rule, Instant at, std::string text);
     const std::vector<Finding>& findings() const { return findings_; }
+    /// The peak acceleration so far, as a factor of its limit: what velocity step and counting do not explain.
+    double peak_accel_factor() const { return peak_accel_factor_; }
 
   private:
     struct Own {
@@ -146,7 +155,7 @@ class Invariants {
     int may_move_ = 0, may_declare_ = 0, stop_due_ = 0;  ///< number of snapshots
     // interval of the velocity measurement
     Instant base_at_{};
-    double last_seconds_ = 0;
+    double last_seconds_ = 0, peak_accel_factor_ = 0;
     bool serviced_ = false;                     ///< a card was in service in this interval
     bool jumped_ = true;                        ///< pulses ended without a ramp, or the run starts: no reference
     bool braked_ = false, was_braked_ = false;  ///< a stop was active in this interval, in the previous one

@@ -24,8 +24,9 @@ std::vector<AxisFacts> facts_of(rack::Rack& rack) {
 
 /// Up to four sections of a jerk-limited path, each of at most 10 ms, are ahead of the axes. The deceleration changes
 /// within the jerk limit.
-Invariants::Settings settings_of(const rack::RackConfig& config, Duration slice) {
+Invariants::Settings settings_of(const rack::RackConfig& config, Duration slice, const LimitFactors& known) {
     Invariants::Settings out;
+    out.known = known;
     for (const rack::RackAxis& axis : config.axes)
         if (config.jerk_limited() && axis.max_jerk > 0)
             out.jerk_time_s = std::max(out.jerk_time_s, axis.max_accel / axis.max_jerk);
@@ -40,8 +41,8 @@ void fail_test(const Finding& finding) {
     ADD_FAILURE() << fmt::format("at {:.6f} s: {}: {}", to_seconds(finding.at), name_of(finding.rule), finding.text);
 }
 
-RackWatch::RackWatch(rack::Rack& rack, Duration slice, Invariants::Report report)
-    : rack_(rack), invariants_(facts_of(rack), settings_of(rack.config(), slice), std::move(report)) {
+RackWatch::RackWatch(rack::Rack& rack, Duration slice, Invariants::Report report, const LimitFactors& known)
+    : rack_(rack), invariants_(facts_of(rack), settings_of(rack.config(), slice, known), std::move(report)) {
     for (const rack::RackCard& card : rack.config().cards)
         if (card.type == "rtc5") lasers_.push_back(rack.kernel().find_wire(card.name + ".laser_on"));
 }

@@ -16,15 +16,15 @@ void fail_test(const Finding& finding);
 class RackWatch {
   public:
     /// The rack must outlive it and be started before the first check.
-    explicit RackWatch(rack::Rack& rack, Invariants::Report report = fail_test)
-        : RackWatch(rack, milliseconds(50), std::move(report)) {}
+    explicit RackWatch(rack::Rack& rack, Invariants::Report report = fail_test, const LimitFactors& known = {})
+        : RackWatch(rack, milliseconds(50), std::move(report), known) {}
     /// Checks a rack driven by a program: motion is allowed at any time until a stop.
     void poll();
     Invariants& invariants() { return invariants_; }
 
   protected:
     /// `slice`: that of the driving program.
-    RackWatch(rack::Rack& rack, Duration slice, Invariants::Report report);
+    RackWatch(rack::Rack& rack, Duration slice, Invariants::Report report, const LimitFactors& known = {});
     Sight sight();
 
     rack::Rack& rack_;

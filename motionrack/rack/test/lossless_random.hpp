@@ -193,9 +193,10 @@ inline Disturbed wishes_of(ChordMaker& random, double seconds) {
     return out;
 }
 
-/// On a curve in chords, the trapezoidal profile uses up to twice an axis' acceleration: along the path, and from chord
-/// to chord. The other profile shares it out.
-inline constexpr double accel_of_trapezoids = 2;
+/// Known breaches of random programs in the profile of a rack.
+inline test::LimitFactors of_random_profile(const RackConfig& config) {
+    return config.jerk_limited() ? test::LimitFactors() : test::known_breaches("random_trapezoids");
+}
 
 /// A stop, as a command or as Ctrl-C; added to a program without one, or in place of it.
 inline void ask_stop(Disturbed& disturbed, Chance& chance, double seconds) {
@@ -225,9 +226,10 @@ inline void drive_one(std::uint64_t seed, Arcs arcs = Arcs::none) {
     SCOPED_TRACE(fmt::format("MOTIONRACK_SEED={} {} microsteps {}, latency {} us, access {} ns, wishes{}", seed,
                              profile, config.axes[0].microsteps, config.cards[0].mcx314.host_latency_us,
                              config.cards[0].mcx314.bus_access_ns, reported));
-    const Driven driven =
-        drive_with(config, program.text, disturbed.wishes, {}, seed % 2 == 0 ? accel_of_trapezoids : 1);
-    expect_lossless(driven, 1.3);
+    const test::LimitFactors known = test::larger_of(test::known_breaches("random_chords"), of_random_profile(config));
+    const Driven driven = drive_with(config, program.text, disturbed.wishes, {}, known, known.max_accel);
+    test::ReachedFactors::of_program().add("random_chords", {1, driven.worst.parts});
+    expect_lossless(driven, known.max_velocity_step);
     if (!disturbed.stopped || driven.outcome.ended) expect_end(driven, program.x, program.y);
 }
 
@@ -240,7 +242,8 @@ inline void drive_late(std::uint64_t seed) {
     const ChordMaker::Program program = random.make();
     RackConfig config = rack_of(random, profile);
     for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;
-    const double undisturbed = to_seconds(drive_with(config, program.text, {}).outcome.time);
+    const double undisturbed =
+        to_seconds(drive_with(config, program.text, {}, {}, of_random_profile(config)).outcome.time);
     Chance late(seed + 0x1a7e);
     std::vector<std::pair<double, double>> waits(static_cast<std::size_t>(1 + late.pick(4)));
     double waited = 0;
@@ -255,10 +258,13 @@ inline void drive_late(std::uint64_t seed) {
     SCOPED_TRACE(fmt::format("MOTIONRACK_SEED={} {} latency {} us, access {} ns, late{}", seed, profile,
                              config.cards[0].mcx314.host_latency_us, config.cards[0].mcx314.bus_access_ns, reported));
     std::size_t next = 0;
-    const Driven driven = drive_with(config, program.text, {}, [&](Rack& rack) {
+    const auto be_late = [&](Rack& rack) {
         if (next == waits.size() || to_seconds(rack.kernel().now()) < waits[next].first) return;
         rack.cards().front()->host().pass(from_seconds(waits[next++].second));
-    });
+    };
+    const Driven driven = drive_with(config, program.text, {}, be_late,
+                                     test::larger_of(test::known_breaches("late_host"), of_random_profile(config)));
+    test::ReachedFactors::of_program().add("late_host", {1, driven.worst.parts});
     expect_end(driven, program.x, program.y);
     EXPECT_LT(to_seconds(driven.outcome.time), 1.45 * undisturbed + waited);
     for (const AxisOutcome& axis : driven.outcome.axes) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <tests/invariants/watch.hpp>
 #include <tests/journey.hpp>
+#include <tests/known_breaches.hpp>
 #include <tests/pulse_referee.hpp>
 #include <utility>
 #include <vector>
@@ -17,7 +18,8 @@ namespace motionrack::rack {
 struct Driven {
     JobOutcome outcome;
     test::PulseReferee::Verdict worst;
-    bool held = false;  ///< stopped on its way because of a hold
+    double peak_accel_factor = 0;  ///< see Invariants
+    bool held = false;             ///< stopped on its way because of a hold
 };
 
 /// Seconds since the start, and the request at that instant.
@@ -38,10 +40,11 @@ class FlagAt final : public sim::Device {
 };
 
 /// Requests are commands of the job; or "ctrl-c", which the job checks between two runs of the kernel; or, alone,
-/// "flag", as seen by a program with its own job. `slice`: called throughout the run. `accel_parts`: see PulseReferee.
-/// see PulseReferee.
+/// "flag", as seen by a program with its own job. `slice`: called throughout the run. `known`: known breaches of the
+/// run, beside those of its profile. `accel_parts`: see PulseReferee.
 inline Driven drive_with(const RackConfig& config, const std::string& program, const Wishes& wishes,
-                         const std::function<void(Rack&)>& slice = {}, double accel_parts = 1) {
+                         const std::function<void(Rack&)>& slice = {}, const test::LimitFactors& known = {},
+                         double accel_parts = 1) {
     Rack rack(config);
     std::vector<ScheduledText> texts;
     Instant ctrl_c = never, flag_at = never;
@@ -57,10 +60,9 @@ inline Driven drive_with(const RackConfig& config, const std::string& program, c
     auto plan = CommandSchedule::create(rack, texts);
     EXPECT_TRUE(plan);
     FlagAt flag(rack.kernel(), flag_at);
-    // The referee compares each pulse with the limits of its axis.
-    test::RackWatch watch(rack, [](const test::Finding& finding) {
-        if (finding.rule != test::Rule::limits_kept) test::fail_test(finding);
-    });
+    const test::LimitFactors of_profile =
+        config.jerk_limited() ? test::LimitFactors() : test::known_breaches("trapezoid");
+    test::RackWatch watch(rack, test::fail_test, test::larger_of(of_profile, known));
     JobSettings settings;
     settings.program = program;
     settings.program_name = "test";
@@ -80,6 +82,10 @@ inline Driven drive_with(const RackConfig& config, const std::string& program, c
     Driven out;
     out.outcome = job.run();
     out.worst = referee.verdict(accel_parts);
+    out.peak_accel_factor = watch.invariants().peak_accel_factor();
+    if (!config.jerk_limited())
+        test::ReachedFactors::of_program().add(known.max_accel > 1 ? "random_trapezoids" : "trapezoid",
+                                               {out.peak_accel_factor, 1});
     return out;
 }
 

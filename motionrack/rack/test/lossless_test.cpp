@@ -230,11 +230,13 @@ TEST(Host, ThatIsTooLateIsReportedWithPositionAndDelay) {
     const Path path = spiral(0.2, 200);
     RackConfig config = router();
     for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;  // its motors lose steps
-    const Driven driven = drive_with(config, path.text, {}, [&](Rack& rack) {
+    const auto be_late = [&](Rack& rack) {
         if (late || rack.kernel().now() < milliseconds(2500)) return;
         late = true;
         rack.cards().front()->host().pass(milliseconds(20));
-    });
+    };
+    const test::LimitFactors known = test::known_breaches("late_host");
+    const Driven driven = drive_with(config, path.text, {}, be_late, known);
     ASSERT_TRUE(driven.outcome.ended);
     EXPECT_FALSE(driven.outcome.good());
     bool reported = false;
@@ -248,6 +250,7 @@ TEST(Host, ThatIsTooLateIsReportedWithPositionAndDelay) {
     }
     EXPECT_TRUE(reported);
     EXPECT_GT(driven.worst.parts, 5) << "the referee sees that the pulses stopped at once";
+    EXPECT_LE(driven.worst.parts, known.max_velocity_step);
     EXPECT_EQ(driven.outcome.breaches.all().back().kind, BreachKind::jump) << "and so does the monitor";
     expect_end(driven, path.x, path.y);
 }
@@ -265,11 +268,12 @@ TEST_P(Lossless, ALateHostContinuesAtTheProgrammedFeed) {
         for (double left = 0.2; left < 0.75; left += 0.15) {
             SCOPED_TRACE(testing::Message() << along << ", late " << left << " s before the end");
             bool late = false;
-            const Driven driven = drive_with(config, text + "M2\n", {}, [&](Rack& rack) {
+            const auto be_late = [&](Rack& rack) {
                 if (late || to_seconds(rack.kernel().now()) < seconds - left) return;
                 late = true;
                 rack.cards().front()->host().pass(milliseconds(20));
-            });
+            };
+            const Driven driven = drive_with(config, text + "M2\n", {}, be_late, test::known_breaches("late_host"));
             ASSERT_TRUE(driven.outcome.ended);
             EXPECT_FALSE(driven.outcome.good());
             EXPECT_LT(to_seconds(driven.outcome.time), seconds + 0.4);
