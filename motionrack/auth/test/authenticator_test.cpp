@@ -56,7 +56,7 @@ class AuthenticatorTest : public testing::Test {
     std::unique_ptr<Authenticator> door;
 };
 
-TEST_F(AuthenticatorTest, LetsTheFirstPersonInWithTheStartCodeAndMakesAnother) {
+TEST_F(AuthenticatorTest, PairsTheFirstUserWithTheStartCodeAndReplacesTheCode) {
     ASSERT_EQ(start_codes.size(), 1u);
     const auto anna = pair(start_codes[0], "anna");
     ASSERT_TRUE(anna) << anna.error().sentence;
@@ -72,7 +72,7 @@ TEST_F(AuthenticatorTest, LetsTheFirstPersonInWithTheStartCodeAndMakesAnother) {
     EXPECT_EQ(who->id, anna->identity.id);
 }
 
-TEST_F(AuthenticatorTest, TakesCodesAsPeopleTypeThem) {
+TEST_F(AuthenticatorTest, AcceptsCodesInLowerCaseAndWithoutHyphens) {
     EXPECT_EQ(plain_code(" abcd-0il o "), "ABCD0110");
     std::string typed;
     for (const char c : start_codes[0])
@@ -80,7 +80,7 @@ TEST_F(AuthenticatorTest, TakesCodesAsPeopleTypeThem) {
     EXPECT_TRUE(pair(typed, "anna"));
 }
 
-TEST_F(AuthenticatorTest, GivesRolesByInvitationOnceAndForTenMinutes) {
+TEST_F(AuthenticatorTest, AcceptsAnInvitationOnceWithinTenMinutesAndGrantsItsRole) {
     const std::string code = *door->invite(Role::observe, now);
     const auto bert = pair(code, "bert");
     ASSERT_TRUE(bert);
@@ -102,7 +102,7 @@ TEST_F(AuthenticatorTest, PairsATakenNameWithTheStartCodeOnly) {
     EXPECT_EQ(door->users().size(), 3u);
 }
 
-TEST_F(AuthenticatorTest, SlowsWrongCodesDownPerAddressAndForAll) {
+TEST_F(AuthenticatorTest, LimitsTheRateOfWrongCodesPerAddressAndInTotal) {
     for (int i = 0; i < 5; ++i) EXPECT_EQ(pair("AAAA-AAAA", "eve", "10.0.0.1").error().reason, AuthError::Why::wrong);
     EXPECT_EQ(pair(start_codes[0], "eve", "10.0.0.1").error().reason, AuthError::Why::too_many)
         << "even a right one is not looked at";
@@ -114,7 +114,7 @@ TEST_F(AuthenticatorTest, SlowsWrongCodesDownPerAddressAndForAll) {
     EXPECT_TRUE(pair(start_codes[0], "anna", "10.0.2.1"));
 }
 
-TEST_F(AuthenticatorTest, KnowsNoTokenThatHasExpiredWasRevokedOrMadeUp) {
+TEST_F(AuthenticatorTest, RejectsExpiredRevokedAndForgedTokens) {
     const auto anna = *pair(start_codes[0], "anna");
     EXPECT_FALSE(door->authenticate("", now.wall));
     EXPECT_FALSE(door->authenticate(std::string(64, 'a'), now.wall));
@@ -132,7 +132,7 @@ TEST_F(AuthenticatorTest, KnowsNoTokenThatHasExpiredWasRevokedOrMadeUp) {
     EXPECT_FALSE(door->revoke("bert"));
 }
 
-TEST_F(AuthenticatorTest, KeepsHashesInAFileThatOnlyItsOwnerMayRead) {
+TEST_F(AuthenticatorTest, StoresHashesInAFileThatOnlyItsOwnerMayRead) {
     const auto anna = *pair(start_codes[0], "anna");
     struct stat about;
     ASSERT_EQ(::stat(file().c_str(), &about), 0);
@@ -187,7 +187,7 @@ TEST_F(AuthenticatorTest, ChecksTheFolderBeforeTheFirstUserIsWritten) {
     EXPECT_THAT(try_open().error().message, HasSubstr("(mode 777)"));
 }
 
-TEST_F(AuthenticatorTest, HasKeysCheckedThatOthersMayRead) {
+TEST_F(AuthenticatorTest, RejectsAKeyFileThatOthersMayRead) {
     write("key");
     EXPECT_TRUE(check_readers(file().string(), "The key"));
     ::chmod(file().c_str(), 0644);
@@ -228,7 +228,7 @@ TEST_F(AuthenticatorTest, RevokesNoUserIfTheFileCannotBeWritten) {
     EXPECT_TRUE(door->authenticate(anna.token, now.wall)) << "as the file has it";
 }
 
-TEST_F(AuthenticatorTest, ForgetsOneTokenOfAUser) {
+TEST_F(AuthenticatorTest, RevokesOneTokenOfAUser) {
     const auto first = *pair(start_codes[0], "anna"), second = *pair(start_codes[1], "anna");
     EXPECT_FALSE(door->forget("0123"));
     EXPECT_TRUE(door->forget(first.identity.id));
@@ -239,7 +239,7 @@ TEST_F(AuthenticatorTest, ForgetsOneTokenOfAUser) {
     EXPECT_TRUE(door->authenticate(second.token, now.wall));
 }
 
-TEST_F(AuthenticatorTest, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpired) {
+TEST_F(AuthenticatorTest, LimitsPairedDevicesAndRemovesThoseWithExpiredTokens) {
     AuthSettings two;
     two.max_tokens = 2;
     open(two);
@@ -259,7 +259,7 @@ TEST_F(AuthenticatorTest, PairsSoManyDevicesAndForgetsThoseWhoseTokensHaveExpire
     EXPECT_EQ(door->users().size(), 2u) << "a refusal changes nothing";
 }
 
-TEST_F(AuthenticatorTest, KeepsSoManyCodesOpenAndForgetsThoseThatAreOver) {
+TEST_F(AuthenticatorTest, LimitsOpenCodesAndRemovesExpiredOnes) {
     AuthSettings two;
     two.max_invitations = 2;
     open(two);
@@ -272,7 +272,7 @@ TEST_F(AuthenticatorTest, KeepsSoManyCodesOpenAndForgetsThoseThatAreOver) {
     EXPECT_FALSE(door->invite(Role::observe, now)) << "the second is not";
 }
 
-TEST_F(AuthenticatorTest, TakesAFolderThatItsOwnGroupMayWriteOnly) {
+TEST_F(AuthenticatorTest, AcceptsAFolderThatTheUsersOwnGroupMayWriteAndNoOtherGroup) {
     ::chmod(folder.c_str(), 0770);
     EXPECT_TRUE(try_open());
     if (::geteuid() != 0) return;
@@ -280,7 +280,7 @@ TEST_F(AuthenticatorTest, TakesAFolderThatItsOwnGroupMayWriteOnly) {
     EXPECT_FALSE(try_open());
 }
 
-TEST_F(AuthenticatorTest, ReadsTimesOfExpiryUpToTheYear2255) {
+TEST_F(AuthenticatorTest, ReadsExpiryTimesUpToTheYear2255) {
     const std::string begin =
         R"({"users":[{"name":"a","role":"observe","token_sha256":")" + std::string(64, 'a') + R"(","expires":)";
     for (const char* good : {"0", "9000000000"}) {
@@ -291,7 +291,7 @@ TEST_F(AuthenticatorTest, ReadsTimesOfExpiryUpToTheYear2255) {
     EXPECT_FALSE(try_open());
 }
 
-TEST_F(AuthenticatorTest, TakesNamesThatPeopleCanTellApart) {
+TEST_F(AuthenticatorTest, RejectsNamesWithControlOrMarkupCharactersAndOverlongNames) {
     for (const char* good :
          {"anna", "Anna B. 2", "j\xc3\xb6rg", "a", "09AZaz._-\x80", "1234567890123456789012345678901234567890"})
         EXPECT_EQ(name_problem(good), "") << good;
@@ -302,7 +302,7 @@ TEST_F(AuthenticatorTest, TakesNamesThatPeopleCanTellApart) {
     EXPECT_TRUE(pair(start_codes[0], "anna"));
 }
 
-TEST_F(AuthenticatorTest, WithoutAStartCodeLetsOnlyThoseInWhoAreThere) {
+TEST_F(AuthenticatorTest, WithoutAStartCodeAcceptsExistingUsersOnly) {
     const auto anna = *pair(start_codes[0], "anna");
     AuthSettings settings;
     settings.users_file = file();
@@ -312,7 +312,7 @@ TEST_F(AuthenticatorTest, WithoutAStartCodeLetsOnlyThoseInWhoAreThere) {
     EXPECT_TRUE(closed->authenticate(anna.token, now.wall));
 }
 
-TEST(Secrets, AreNotTheSameTwice) {
+TEST(Secrets, DifferEachTime) {
     EXPECT_NE(random_token(), random_token());
     EXPECT_NE(random_code(), random_code());
     EXPECT_EQ(random_code().size(), 9u);

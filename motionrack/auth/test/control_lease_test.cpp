@@ -10,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-class LeaseOfControl : public testing::Test {
+class ControlLeaseTest : public testing::Test {
   protected:
     Moment now{};
     ControlLease lease{[this] { return now; }};
@@ -19,7 +19,7 @@ class LeaseOfControl : public testing::Test {
     }
 };
 
-TEST_F(LeaseOfControl, IsFreeAtFirstAndGoesToTheFirstClientThatTakesIt) {
+TEST_F(ControlLeaseTest, IsFreeAtFirstAndGrantedToTheFirstClientThatRequestsIt) {
     EXPECT_FALSE(lease.holder());
     EXPECT_THAT(lease.check("a").error().message, HasSubstr("No user has control"));
     now += 3s;
@@ -31,7 +31,7 @@ TEST_F(LeaseOfControl, IsFreeAtFirstAndGoesToTheFirstClientThatTakesIt) {
     EXPECT_TRUE(lease.check("a"));
 }
 
-TEST_F(LeaseOfControl, IsTakenOverByForceAtAStandstillOnly) {
+TEST_F(ControlLeaseTest, IsTakenOverByForceAtStandstillOnly) {
     ASSERT_TRUE(take("anna", "a"));
     EXPECT_THAT(take("bert", "b").error().message, HasSubstr("anna has it"));
     EXPECT_THAT(take("bert", "b", true, false).error().message, HasSubstr("has it and the machine moves"));
@@ -40,7 +40,7 @@ TEST_F(LeaseOfControl, IsTakenOverByForceAtAStandstillOnly) {
     EXPECT_THAT(lease.check("a").error().message, HasSubstr("Control is with bert"));
 }
 
-TEST_F(LeaseOfControl, OfADeadClientIsTakenOverByForceWhileTheMachineMoves) {
+TEST_F(ControlLeaseTest, OfADisconnectedClientIsTakenOverByForceWhileTheMachineMoves) {
     ASSERT_TRUE(take("anna", "a"));
     lease.left("a");
     EXPECT_TRUE(lease.holder()->left);
@@ -49,7 +49,7 @@ TEST_F(LeaseOfControl, OfADeadClientIsTakenOverByForceWhileTheMachineMoves) {
     EXPECT_FALSE(lease.holder()->left);
 }
 
-TEST_F(LeaseOfControl, OfAClientThatSendsCommandsAgainIsNotTakenOverWhileTheMachineMoves) {
+TEST_F(ControlLeaseTest, OfAReconnectedClientIsNotTakenOverWhileTheMachineMoves) {
     ASSERT_TRUE(take("anna", "a"));
     lease.left("a");
     ASSERT_TRUE(lease.check("a"));
@@ -57,7 +57,7 @@ TEST_F(LeaseOfControl, OfAClientThatSendsCommandsAgainIsNotTakenOverWhileTheMach
     EXPECT_THAT(take("bert", "b", true, false).error().message, HasSubstr("has it and the machine moves"));
 }
 
-TEST_F(LeaseOfControl, EndsWithTheStopOfAnotherButNotWithItsHolders) {
+TEST_F(ControlLeaseTest, EndsOnAStopOfAnotherClientButNotOfItsHolder) {
     ASSERT_TRUE(take("anna", "a"));
     EXPECT_FALSE(lease.revoke("anna", "a"));
     EXPECT_FALSE(lease.revoke("anna", "")) << "the same user, by HTTP";
@@ -69,7 +69,7 @@ TEST_F(LeaseOfControl, EndsWithTheStopOfAnotherButNotWithItsHolders) {
     EXPECT_THAT(lease.check("a").error().message, HasSubstr("Take control first"));
 }
 
-TEST_F(LeaseOfControl, EndsTenSecondsAfterTheLastSignOfLife) {
+TEST_F(ControlLeaseTest, ExpiresTenSecondsAfterItsLastRenewal) {
     ASSERT_TRUE(take("anna", "a"));
     now += 9s;
     EXPECT_TRUE(lease.keep("a"));
@@ -84,7 +84,7 @@ TEST_F(LeaseOfControl, EndsTenSecondsAfterTheLastSignOfLife) {
     EXPECT_TRUE(take("bert", "b", false, false)) << "it is nobody's, even while the machine moves";
 }
 
-TEST_F(LeaseOfControl, IsGivenBackByItsHolderOnly) {
+TEST_F(ControlLeaseTest, IsReleasedByItsHolderOnly) {
     ASSERT_TRUE(take("anna", "a"));
     EXPECT_FALSE(lease.release("b"));
     EXPECT_TRUE(lease.release("a"));
@@ -92,7 +92,7 @@ TEST_F(LeaseOfControl, IsGivenBackByItsHolderOnly) {
     EXPECT_FALSE(lease.release("a"));
 }
 
-TEST_F(LeaseOfControl, ComesBackToTheUserWhosePageWasLoadedAgain) {
+TEST_F(ControlLeaseTest, ReturnsToTheUserWhoReloadsThePage) {
     ASSERT_TRUE(take("anna", "a1"));
     EXPECT_FALSE(take("anna", "a2", false, false)) << "two pages of one user are two masters";
     lease.left("a1");
@@ -101,13 +101,13 @@ TEST_F(LeaseOfControl, ComesBackToTheUserWhosePageWasLoadedAgain) {
     EXPECT_TRUE(lease.check("a2"));
 }
 
-TEST_F(LeaseOfControl, OfAnUnnamedUserIsNotTakenByAnotherUnnamedUser) {
+TEST_F(ControlLeaseTest, OfAnUnnamedUserIsNotGrantedToAnotherUnnamedUser) {
     ASSERT_TRUE(take("", "a"));
     lease.left("a");
     EXPECT_THAT(take("", "b", false, false).error().message, HasSubstr("another session"));
 }
 
-TEST_F(LeaseOfControl, TakenTwiceIsKept) {
+TEST_F(ControlLeaseTest, RequestedAgainByItsHolderIsKept) {
     ASSERT_TRUE(take("anna", "a"));
     now += 5s;
     ASSERT_TRUE(take("anna", "a", false, false));

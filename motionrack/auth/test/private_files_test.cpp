@@ -33,7 +33,7 @@ class PrivateFiles : public testing::Test {
     const std::string file_;
 };
 
-TEST_F(PrivateFiles, OfThisUserAreTaken) {
+TEST_F(PrivateFiles, OfThisUserAreAccepted) {
     EXPECT_EQ(refused(), "");
     ::chmod(file_.c_str(), 0620);
     EXPECT_THAT(refused(), HasSubstr("Others may write the users file (mode 620)"));

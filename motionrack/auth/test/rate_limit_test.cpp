@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(RateLimit, GivesSoManyAtOnceAndThenSoManyASecond) {
+TEST(RateLimit, AllowsABurstAndThenARatePerSecond) {
     RateLimit limit(3, 2);
     RateLimit::Time now{};
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(limit.take("a", now));
@@ -24,7 +24,7 @@ TEST(RateLimit, GivesSoManyAtOnceAndThenSoManyASecond) {
     EXPECT_FALSE(limit.take("a", now));
 }
 
-TEST(RateLimit, GivesNothingForAClockThatGoesBack) {
+TEST(RateLimit, AllowsNothingMoreWhenTheClockGoesBack) {
     RateLimit limit(1, 1);
     RateLimit::Time now{1h};
     EXPECT_TRUE(limit.take("a", now));
@@ -32,7 +32,7 @@ TEST(RateLimit, GivesNothingForAClockThatGoesBack) {
     EXPECT_FALSE(limit.take("a", now));
 }
 
-TEST(RateLimit, KeepsSoManyKeysAndForgetsTheFullOnesFirst) {
+TEST(RateLimit, LimitsItsKeysAndRemovesFullBucketsFirst) {
     RateLimit limit(1, 1, 100);
     RateLimit::Time now{};
     for (int i = 0; i < 100; ++i) EXPECT_TRUE(limit.take(std::to_string(i), now));
