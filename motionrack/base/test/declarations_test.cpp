@@ -113,7 +113,7 @@ TEST(StateTables, RefuseStatesThatCannotBeReachedOrLeft) {
     EXPECT_EQ(machine({}, {}), "m: there are not 1 to 64 states");
 }
 
-TEST(StateTables, FindWhatIsReachedThroughAChainDeclaredBackwards) {
+TEST(StateTables, AcceptStatesReachedThroughAChainDeclaredInReverse) {
     EXPECT_EQ(machine({{"a", "1"}, {"b", "2"}, {"c", "3"}, {"d", "4", true}},
                       {{"c", "d", "x"}, {"b", "c", "x"}, {"a", "b", "x"}}),
               "");
@@ -160,7 +160,7 @@ TEST(Descriptions, AsMarkdownGroupDigitsAndKeepTheirTablesWhole) {
     EXPECT_THAT(page, HasSubstr("| \\*pp | output | low | pulses |\n"));
 }
 
-TEST(Descriptions, AsTextNameEverything) {
+TEST(Descriptions, AsTextHaveEveryRegisterCommandStateAndPin) {
     const Sample sample;
     const std::string text = describe_text(sample.map);
     for (const char* word : {"HIGH", "SET", "goes (As only) (not reproduced)", "rest", "*pp", "active low"})

@@ -6,7 +6,7 @@
 namespace motionrack {
 namespace {
 
-TEST(LateLibrary, FindsWhatItHas) {
+TEST(LateLibrary, FindsAnExportedFunction) {
     LateLibrary library("libm.so.6");
     double (*cosine)(double) = nullptr;
     library.find("cos", cosine);

@@ -6,7 +6,7 @@
 namespace motionrack {
 namespace {
 
-TEST(NumberOf, TakesTheWholeTextOrNothing) {
+TEST(NumberOf, ParsesTheWholeTextOrReturnsNaN) {
     EXPECT_EQ(number_of("12.5"), 12.5);
     EXPECT_EQ(number_of("-1e-3"), -0.001);
     EXPECT_EQ(number_of("0"), 0);

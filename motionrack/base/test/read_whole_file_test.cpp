@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 
 constexpr ReadLimit short_one{std::size_t{1} << 20, "a program"};
 
-class FileThatIsRead : public testing::Test {
+class ReadWholeFile : public testing::Test {
   protected:
-    FileThatIsRead() : path_((fs::temp_directory_path() / ("read-" + std::to_string(::getpid()))).string()) {}
-    ~FileThatIsRead() override { fs::remove_all(path_); }
+    ReadWholeFile() : path_((fs::temp_directory_path() / ("read-" + std::to_string(::getpid()))).string()) {}
+    ~ReadWholeFile() override { fs::remove_all(path_); }
     std::string sentence() const {
         const Result<std::string> text = read_whole_file(path_, short_one);
         return text ? "" : text.error().message;
@@ -27,7 +27,7 @@ class FileThatIsRead : public testing::Test {
     std::string path_;
 };
 
-TEST_F(FileThatIsRead, ComesWholeUpToItsLimit) {
+TEST_F(ReadWholeFile, IsReadWholeUpToTheSizeLimit) {
     const std::string text((1 << 20) - 1, 'x');
     std::ofstream(path_) << text;
     EXPECT_EQ(*read_whole_file(path_, short_one), text);
@@ -35,7 +35,7 @@ TEST_F(FileThatIsRead, ComesWholeUpToItsLimit) {
     EXPECT_THAT(sentence(), HasSubstr("has more than 1 MiB, the limit of a program"));
 }
 
-TEST_F(FileThatIsRead, WithoutAnEndIsRefused) {
+TEST_F(ReadWholeFile, WithoutAnEndIsRejected) {
     const Result<std::string> zero = read_whole_file("/dev/zero", short_one);
     ASSERT_FALSE(zero);
     EXPECT_EQ(zero.error().kind, ErrorKind::invalid_input);
@@ -43,13 +43,13 @@ TEST_F(FileThatIsRead, WithoutAnEndIsRefused) {
     EXPECT_EQ(*read_whole_file("/dev/null", short_one), "");
 }
 
-TEST_F(FileThatIsRead, IsNoFolderAndIsThere) {
+TEST_F(ReadWholeFile, IsRejectedIfMissingOrAFolder) {
     EXPECT_THAT(sentence(), HasSubstr("No such file"));
     fs::create_directory(path_);
     EXPECT_THAT(sentence(), HasSubstr("it is a folder, not a file"));
 }
 
-TEST_F(FileThatIsRead, MayBeAFifoThatHasAWriter) {
+TEST_F(ReadWholeFile, MayBeAFifoWithAWriter) {
     ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
     EXPECT_THAT(sentence(), HasSubstr("a FIFO to which nothing was written"));
     int ends[2];

@@ -18,7 +18,7 @@ SwitchEdges edges(std::optional<double> hysteresis = 5) {
     return out;
 }
 
-TEST(SwitchEdges, OfASoundSwitchAgree) {
+TEST(SwitchEdges, OfASoundSwitchAreWithinTolerance) {
     SwitchEdges search = edges();
     EXPECT_FALSE(search.acted(109, 12)) << "the first one has nothing to agree with";
     search.released(95, 0);
@@ -27,7 +27,7 @@ TEST(SwitchEdges, OfASoundSwitchAgree) {
     EXPECT_FALSE(search.acted(104, 3)) << "as far apart as looks, hysteresis and contacts explain";
 }
 
-TEST(SwitchEdges, ThatActFarBeyondOrBeforeTheReleaseDoNot) {
+TEST(SwitchEdges, FarBeyondOrBeforeTheReleaseAreReported) {
     SwitchEdges search = edges();
     search.released(95, 0);
     EXPECT_EQ(words(search.acted(102.5, 0)),
@@ -40,7 +40,7 @@ TEST(SwitchEdges, ThatActFarBeyondOrBeforeTheReleaseDoNot) {
               "deviates by at most 2.00");
 }
 
-TEST(SwitchEdges, AreThoseOfTheApproachBefore) {
+TEST(SwitchEdges, AreComparedWithThePreviousApproach) {
     for (const double second : {96.5, 103.5}) {
         SwitchEdges search = edges();
         EXPECT_FALSE(search.acted(101, 2));
@@ -55,7 +55,7 @@ TEST(SwitchEdges, AreThoseOfTheApproachBefore) {
               "deviates by at most 2.00");
 }
 
-TEST(SwitchEdges, ThatBounceForLongAreReleasedFromTheFirstPositionToTheLast) {
+TEST(SwitchEdges, OfALongBounceAreReleasedFromItsFirstToItsLastPosition) {
     for (const double acts : {100.0, 88.0, 92.0}) {
         SwitchEdges search = edges();
         search.released(95, 0);
@@ -64,7 +64,7 @@ TEST(SwitchEdges, ThatBounceForLongAreReleasedFromTheFirstPositionToTheLast) {
     }
 }
 
-TEST(SwitchEdges, AreNotComparedWhereTheHysteresisIsNotKnown) {
+TEST(SwitchEdges, AreNotComparedIfTheHysteresisIsUnknown) {
     SwitchEdges search = edges(std::nullopt);
     search.released(95, 0);
     EXPECT_FALSE(search.acted(1000, 0));

@@ -6,7 +6,7 @@
 namespace motionrack {
 namespace {
 
-TEST(Time, SecondsAreTheNearestTick) {
+TEST(Time, SecondsAreRoundedToTheNearestTick) {
     EXPECT_EQ(from_seconds(0), Duration{0});
     EXPECT_EQ(from_seconds(1.5), Duration{15'000'000'000});
     EXPECT_EQ(from_seconds(0.6e-10), Duration{1});

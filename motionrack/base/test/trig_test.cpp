@@ -61,7 +61,7 @@ TEST(Trig, SineAndCosineStayExactNextToMultiplesOfAQuarterTurn) {
     }
 }
 
-TEST(Trig, SpecialAnglesComeOutAsExpected) {
+TEST(Trig, SpecialAnglesHaveExactValues) {
     EXPECT_EQ(sin_cos(0).sin, 0);
     EXPECT_EQ(sin_cos(0).cos, 1);
     EXPECT_TRUE(std::signbit(sin_cos(-0.0).sin));
@@ -84,7 +84,7 @@ TEST(Trig, AnglesThatAreTooLargeOrNotNumbersGiveNaN) {
     }
 }
 
-TEST(Trig, ArcTangentIsWithinAnUlpOrSo) {
+TEST(Trig, ArcTangentIsWithinItsErrorBound) {
     if (!wide_long_double()) GTEST_SKIP() << "long double is no wider than double here";
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> any(-1, 1);
@@ -101,7 +101,7 @@ TEST(Trig, ArcTangentIsWithinAnUlpOrSo) {
     EXPECT_LT(max_error, 1.2) << "seed " << seed;
 }
 
-TEST(Trig, ArcTangentKnowsTheAxesZerosAndInfinitiesAsCDoes) {
+TEST(Trig, ArcTangentOfAxesZerosAndInfinitiesEqualsThatOfC) {
     const double inf = std::numeric_limits<double>::infinity();
     const double values[] = {0.0, -0.0, 1.0, -1.0, 5e-324, -5e-324, 1e-310, 1e308, -1e308, inf, -inf};
     for (const double y : values) {
