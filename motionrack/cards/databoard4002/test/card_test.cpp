@@ -22,7 +22,7 @@ TEST(Databoard4002, TheFunctionTestOfTheDescriptionPasses) {
     EXPECT_THAT(host.conditions(), IsEmpty());
 }
 
-TEST(Databoard4002, ReadyDropsForTheFirmwaresTimeAndAnAccessMeanwhileIsLost) {
+TEST(Databoard4002, ReadyIsLowWhileTheFirmwareIsBusyAndAnAccessMeanwhileIsLost) {
     Host host;
     host.start();
     host.port.out(ports::C2, 'O');
@@ -56,7 +56,7 @@ TEST(Databoard4002, TheFirstAccessAfterACommandSelectsReadingOrWriting) {
     EXPECT_EQ(host.ask('R', 2), 0);
 }
 
-TEST(Databoard4002, RelativeMovesBeginWhereTheAxisIsAtG) {
+TEST(Databoard4002, RelativeMovesStartAtThePositionOfTheAxisAtG) {
     Host host;
     host.start();
     host.command('R', 16'344, 2);
@@ -176,7 +176,7 @@ TEST(Databoard4002, C3ResetsThisCardAtOnceAndPulsesRst) {
 
 // ---- several cards
 
-TEST(Databoard4002Bus, OnlyTheChosenCardListensAndAnswersAndInp7ResetsAll) {
+TEST(Databoard4002Bus, OnlyTheSelectedCardRespondsAndInp7ResetsAllCards) {
     Host host;
     Card other(host.kernel, "c2");
     other.connect_encoder(other.pulses());
@@ -244,7 +244,7 @@ TEST(Databoard4002, LinesDrivenAsWiresAreCountedByTheirStraps) {
     EXPECT_EQ(host.card.position(), 2);
 }
 
-TEST(Databoard4002, TooQuickAnEncoderLosesCountsAndReportsIt) {
+TEST(Databoard4002, AnEncoderAboveItsMaximumRateLosesCountsAndReportsIt) {
     sim::Kernel kernel;
     sim::FakePulses encoder(kernel, {});
     Host host({}, false, &encoder, &kernel);
@@ -262,7 +262,7 @@ TEST(Databoard4002, TooQuickAnEncoderLosesCountsAndReportsIt) {
     EXPECT_EQ(kernel.conditions()[1].a, 500);
 }
 
-TEST(Databoard4002, ALineThatChangesTooQuicklyLosesCountsAndReportsIt) {
+TEST(Databoard4002, ALineAboveItsMaximumRateLosesCountsAndReportsIt) {
     Host host({}, false);
     host.start();
     host.set("o1", 1);
@@ -275,7 +275,7 @@ TEST(Databoard4002, ALineThatChangesTooQuicklyLosesCountsAndReportsIt) {
     EXPECT_THAT(host.conditions(), ElementsAre(CardCondition::line_too_quick));
 }
 
-TEST(Databoard4002, AnEncoderThatIsCutOffLeavesItsCountAndTheWiresContinue) {
+TEST(Databoard4002, ADisconnectedEncoderKeepsItsCountAndTheWiresContinueIt) {
     Host host;
     host.start();
     host.command('R', 16'344, 2);

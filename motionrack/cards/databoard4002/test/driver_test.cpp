@@ -87,7 +87,7 @@ TEST(Databoard4002Driver, SendsLettersAndBytesInTheOrderOfTheDescription) {
     EXPECT_THAT(letters, ElementsAre('A', 'G', 'I', 'L', 'M', 'O', 'Q', 'W'));
 }
 
-TEST(Databoard4002Driver, RefusesWhatTheCardCannotTakeAndSendsNothing) {
+TEST(Databoard4002Driver, RejectsValuesOutOfRangeAndSendsNothing) {
     ScriptedPort port;
     Driver driver(port, port);
     EXPECT_FALSE(driver.set_target(8'388'608));
@@ -127,7 +127,7 @@ TEST(Databoard4002Driver, MovesByPollingAndByInterruptAlike) {
     }
 }
 
-TEST(Databoard4002Driver, WaitsMayBeEndless) {
+TEST(Databoard4002Driver, WaitsWithoutTimeoutIfAllowed) {
     for (const Waiting how : {Waiting::polling, Waiting::interrupt}) {
         Rig rig;
         const auto moved = rig.driver.move_to(2'000, never, how);
@@ -147,7 +147,7 @@ TEST(Databoard4002Driver, WaitsMayBeEndless) {
     EXPECT_TRUE(patient.connect());
 }
 
-TEST(Databoard4002Driver, ReportsWhichStopWasMetAndWhere) {
+TEST(Databoard4002Driver, ReportsTheActiveStopAndThePosition) {
     for (const Waiting how : {Waiting::polling, Waiting::interrupt}) {
         Rig rig;
         // The stop is reached while the driver waits: a broken wire after 50 ms, detected at the next poll.
@@ -169,7 +169,7 @@ TEST(Databoard4002Driver, ReportsWhichStopWasMetAndWhere) {
     }
 }
 
-TEST(Databoard4002Driver, RefusesToMoveInAnEmergencyAndAfterAReset) {
+TEST(Databoard4002Driver, RejectsMovesDuringAnEmergencyStopAndAfterAReset) {
     Rig rig;
     rig.host.set("ems", 1);
     const auto moved = rig.driver.move_to(100, whole_seconds(1));
@@ -182,7 +182,7 @@ TEST(Databoard4002Driver, RefusesToMoveInAnEmergencyAndAfterAReset) {
     EXPECT_THAT(again.error().message, HasSubstr("was reset since it was set up"));
 }
 
-TEST(Databoard4002Driver, AHungCardIsATimeOutAndItsRestartIsNoticed) {
+TEST(Databoard4002Driver, ReportsATimeoutOfAHungCardAndDetectsItsRestart) {
     Rig rig;
     rig.host.wait_ready();
     rig.host.card.fault("watchdog.hang", 1, rig.host.kernel.now());
@@ -196,7 +196,7 @@ TEST(Databoard4002Driver, AHungCardIsATimeOutAndItsRestartIsNoticed) {
     EXPECT_FALSE(rig.driver.move_to(10, whole_seconds(1)));
 }
 
-TEST(Databoard4002Driver, AResetWhileItWaitsIsNoticed) {
+TEST(Databoard4002Driver, DetectsAResetWhileWaiting) {
     Rig rig;
     ASSERT_TRUE(rig.driver.enable_events(event::POSITION));
     rig.driver.reset();

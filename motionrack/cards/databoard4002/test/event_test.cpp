@@ -12,7 +12,7 @@ using ::testing::ElementsAre;
 
 // ---- stops
 
-TEST(Databoard4002, AnEndStopHoldsItsDirectionInHardwareAndTheOtherStaysFree) {
+TEST(Databoard4002, AnEndStopBlocksItsDirectionInHardwareAndNotTheOther) {
     Host host;
     host.start();
     host.out(ports::C4, 0x21);
@@ -103,7 +103,7 @@ TEST(Databoard4002, TheEmergencyStopDoesNotActOnTheOutputInFrontOfTheRelay) {
     EXPECT_EQ(host.level("vdirect"), 0);
 }
 
-TEST(Databoard4002, TheChosenCardShowsIt) {
+TEST(Databoard4002, CsbIsHighOnTheSelectedCardOnly) {
     Host host;
     Card other(host.kernel, "c2", {});
     host.bus.plug(other, 14);
@@ -118,7 +118,7 @@ TEST(Databoard4002, TheChosenCardShowsIt) {
 
 // ---- events
 
-TEST(Databoard4002, AnEventThatIsNotEnabledDoesNotHappenAndALatchedOneStaysUntilC4) {
+TEST(Databoard4002, ADisabledEventDoesNotOccurAndALatchedOneStaysUntilC4) {
     Host host;
     host.start();
     host.command('W');
@@ -181,7 +181,7 @@ TEST(Databoard4002, ZeroAndReferenceTogetherAreOneEventAndZeroTheCounterAtThatIn
     EXPECT_EQ(host.events(0), event::ZERO | event::REF);
 }
 
-TEST(Databoard4002, AReferenceThatIsActiveWhenArmedMustBeLeftFirst) {
+TEST(Databoard4002, AReferenceThatIsActiveWhenArmedMustBecomeInactiveFirst) {
     Settings settings;
     settings.zeroing = false;
     Host host(settings);

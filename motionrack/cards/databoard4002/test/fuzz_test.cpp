@@ -11,7 +11,7 @@
 namespace motionrack::databoard4002 {
 namespace {
 
-TEST(Databoard4002Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
+TEST(Databoard4002Fuzz, TheCardSurvivesAnyAccessAtAnyTime) {
     const std::uint64_t seed = seed_from_environment();
     const auto count = static_cast<std::int64_t>(cases("MOTIONRACK_ACCESSES", 1'000'000));
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << count << " accesses" << std::endl;

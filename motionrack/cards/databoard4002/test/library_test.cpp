@@ -73,7 +73,7 @@ TEST_F(Databoard4002Library, MovesAndReportsItsPosition) {
     EXPECT_FALSE(library.moving());
 }
 
-TEST_F(Databoard4002Library, FollowsASlopeThatItDesigns) {
+TEST_F(Databoard4002Library, MovesByASlopeTableThatItDesigned) {
     EXPECT_THAT(text("design_slope", {10'000, 100'000, 1000, 0}), HasSubstr("48 intervals up to 10000 counts/s"));
     EXPECT_EQ(text("on_regulation"), "Given.");
     EXPECT_EQ(text("move_to", {5000, 2000}), "The card is at 5000 counts.");
@@ -91,7 +91,7 @@ TEST_F(Databoard4002Library, ReadsStatusAndEvents) {
     EXPECT_EQ(text("disable_events"), "EVENT 01h. POSITION: the position was reached or passed.");
 }
 
-TEST_F(Databoard4002Library, WritesNothingButTheEndOfItsMoveOnceAStopIsRequested) {
+TEST_F(Databoard4002Library, EndsItsMoveAndWritesNothingElseOnceAStopIsRequested) {
     EXPECT_EQ(text("set_rate", {thousand_hz}), "Written.");
     time.stop_at = time.now() + milliseconds(50);
     EXPECT_THAT(text("move_to", {100'000, 10'000}), HasSubstr("Stopped on request"));

@@ -113,7 +113,7 @@ TEST(Databoard4002Machine, ASlopeBringsTheCarriageToItsTargetWithinTheMotorsLag)
     }
 }
 
-TEST(Databoard4002Machine, AtFullSpeedWithoutASlopeItRunsFarBeyond) {
+TEST(Databoard4002Machine, AtFullRateWithoutASlopeItOvershootsFar) {
     Machine m;
     ASSERT_TRUE(m.driver.set_rate(16'302));  // 5 V
     ASSERT_TRUE(m.driver.move_to_mm(1'000, whole_seconds(10)));
@@ -121,7 +121,7 @@ TEST(Databoard4002Machine, AtFullSpeedWithoutASlopeItRunsFarBeyond) {
     EXPECT_GT(m.mm(), 1'003);
 }
 
-TEST(Databoard4002Machine, LockWithASaneWindowSettlesAfterAPush) {
+TEST(Databoard4002Machine, LockWithASuitableWindowSettlesAfterAPush) {
     Machine m;
     m.set_slope(20'000, 40'000);
     ASSERT_TRUE(m.driver.move_to_mm(500, whole_seconds(30)));
@@ -153,7 +153,7 @@ TEST(Databoard4002Machine, LockWithTooSmallAWindowAtHighSpeedHunts) {
     EXPECT_EQ(rest.width_mm, 0);
 }
 
-TEST(Databoard4002Machine, TheEndStopStopsTheCarriageAndTheWayBackIsFree) {
+TEST(Databoard4002Machine, TheEndStopStopsTheCarriageAndAllowsTheOtherDirection) {
     Machine m;
     m.set_slope(50'000, 100'000);
     const auto moved = m.driver.move_to_mm(3'200, whole_seconds(30), Waiting::interrupt);
@@ -217,7 +217,7 @@ TEST(Databoard4002Machine, AHeavierCarriageNeedsAGentlerSlope) {
     EXPECT_GT(overrun[0], 10 * overrun[1]);
 }
 
-TEST(Databoard4002Machine, TheWholeMachineIsTheSameEveryTime) {
+TEST(Databoard4002Machine, TheEventTraceOfTheMachineIsReproducible) {
     std::uint64_t hashes[2];
     for (std::uint64_t& hash : hashes) {
         Machine m;

@@ -15,7 +15,7 @@
 namespace motionrack::databoard4002 {
 namespace {
 
-TEST(Databoard4002Map, TheCardKnowsTheDeclaredCommandsAndNoOthers) {
+TEST(Databoard4002Map, TheCardExecutesTheDeclaredCommandsAndNoOthers) {
     std::set<std::uint32_t> declared;
     for (const CommandInfo& command : card_map().commands) declared.insert(command.code);
     Host host;
@@ -151,7 +151,7 @@ TEST(Databoard4002Settings, OutOfRangeAreRefusedWithTheNumberSeen) {
 }
 
 /// As printed, row for row; its two misprints are corrected to fit the neighbouring rows.
-TEST(Databoard4002Trim, IsThePrintedOneUntilAnotherIsGiven) {
+TEST(Databoard4002Trim, IsThePrintedTableByDefault) {
     const Trim printed = *trim_from_text(
         "0.01 13799, 0.025 14051, 0.05 14339, 0.075 14565, 0.1 14745, 0.15 15014, 0.2 15207, "
         "0.25 15351, 0.3 15463, 0.35 15547, 0.4 15628, 0.5 15750, 0.75 15921, 1 16021, "
@@ -170,7 +170,7 @@ TEST(Databoard4002Trim, IsThePrintedOneUntilAnotherIsGiven) {
     EXPECT_EQ(microvolts_of(15'000, own), 500'000);
 }
 
-TEST(Databoard4002Trim, IsRefusedWithTheRowThatIsWrong) {
+TEST(Databoard4002Trim, IsRejectedWithTheInvalidRow) {
     const auto refused = [](const char* text) {
         const Result<Trim> trim = trim_from_text(text);
         return trim ? std::string() : trim.error().message;

@@ -63,7 +63,7 @@ TEST(Databoard4002Moves, TheDemonstrationProgramRunsItsRounds) {
     EXPECT_THAT(host.conditions(), IsEmpty());
 }
 
-TEST(Databoard4002Moves, SpeedIsTheLeastOfAccelerationDecelerationAndRate) {
+TEST(Databoard4002Moves, RateIsTheMinimumOfAccelerationDecelerationAndRate) {
     Host host;
     host.start();
     host.demo_table(1);
@@ -84,7 +84,7 @@ TEST(Databoard4002Moves, SpeedIsTheLeastOfAccelerationDecelerationAndRate) {
     EXPECT_EQ(rates_of_move(host), limited);
 }
 
-TEST(Databoard4002Moves, AShortMoveTurnsFromOneRampToTheOtherInTheMiddle) {
+TEST(Databoard4002Moves, AShortMoveChangesFromAccelerationToDecelerationInTheMiddle) {
     Host host;
     host.start();
     host.demo_table(1);
@@ -213,7 +213,7 @@ TEST(Databoard4002Moves, AthomeMakesThePresentPositionZero) {
     EXPECT_EQ(host.ask('D', 3), 0);
 }
 
-TEST(Databoard4002Moves, LockGoesBackWhenThePositionIsPushedAwayFurtherThanAllowed) {
+TEST(Databoard4002Moves, LockReturnsToItsTargetAfterAPushBeyondItsWindow) {
     sim::Kernel kernel;
     sim::FakePulses hand(kernel, {});
     Host host({}, false, &hand, &kernel);

@@ -38,11 +38,11 @@ void compare(std::uint64_t first, std::uint64_t count, const WayOf& way_of) {
               << " changes of outputs, " << notes << " conditions, " << pulses << " pulses net" << std::endl;
 }
 
-TEST(Databoard4002Oracle, RandomProgramsLookTheSameOnTheCardAndOnItsTwin) {
+TEST(Databoard4002Oracle, RandomProgramsGiveTheSameReadingsOnTheCardAndItsTwin) {
     compare(0, cases("MOTIONRACK_PROGRAMS", 600), [](const Program& p) { return Way{p.number % 3 == 0, 0}; });
 }
 
-TEST(Databoard4002Oracle, ARestoredSnapshotGivesTheSameRest) {
+TEST(Databoard4002Oracle, ARestoredSnapshotContinuesIdentically) {
     compare(1'000'000, 60, [](const Program& p) { return Way{p.number % 2 == 0, 1 + p.number % (p.ops.size() - 1)}; });
 }
 

@@ -113,7 +113,7 @@ TEST(Databoard4002Slope, ThePlannedMotionIsTheOneThatTheCardMakes) {
     }
 }
 
-TEST(Databoard4002Slope, LegsJoinAndTheSeriesHasTheirCorners) {
+TEST(Databoard4002Slope, LegsAreContiguousAndTheSeriesHasTheirCorners) {
     const SpeedScale scale;
     const SlopeTable table = *design_slope({.top_speed = 9'000, .acceleration = 12'000, .deceleration = 7'000}, scale);
     const SlopeMotion motion = *motion_of(table, 50'000, max_rate, scale);
@@ -136,7 +136,7 @@ TEST(Databoard4002Slope, LegsJoinAndTheSeriesHasTheirCorners) {
     EXPECT_TRUE(motion_of(table, 0, max_rate, scale)->legs.empty());
 }
 
-TEST(Databoard4002Slope, RefusesWhatCannotBeWithItsNumbers) {
+TEST(Databoard4002Slope, RejectsImpossibleSlopesWithTheValueAndTheLimit) {
     const SpeedScale scale;
     EXPECT_THAT(design_slope({.top_speed = 500'000}, scale).error().message,
                 HasSubstr("500000 counts/s, but this machine reaches 400000"));

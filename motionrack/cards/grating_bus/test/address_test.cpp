@@ -60,7 +60,7 @@ TEST(GratingBus, AnyListOfAddressesIsReadInItsOrder) {
     }
 }
 
-TEST(GratingBus, HostsInPerfectStepThatWantOtherScalesContendForTheAddress) {
+TEST(GratingBus, SynchronousHostsWithDifferentAddressListsContendForTheAddress) {
     std::vector<CardSettings> settings(2, host_settings(2));
     settings[0].addresses = {1, 2}, settings[1].addresses = {2, 1};
     for (CardSettings& s : settings) s.verify_lines = false;
@@ -111,7 +111,7 @@ TEST(GratingBus, AListOfAddressesIsReadFromTextOrRefusedWithItsLocation) {
     EXPECT_THAT(check(s).error().message, HasSubstr("twice"));
 }
 
-TEST(GratingBus, TheHostGivesTheAddressOnlyWhenItSeesReadLow) {
+TEST(GratingBus, TheHostDrivesTheAddressOnlyAfterReadIsLow) {
     for (const int level : {1, 0}) {
         Crate crate(crew(1));
         crate.watch_wires();
@@ -138,7 +138,7 @@ TEST(GratingBus, TheHostGivesTheAddressOnlyWhenItSeesReadLow) {
     }
 }
 
-TEST(GratingBus, AHostDoesNotGiveTheAddressLaterWhenItHasSeenReadHigh) {
+TEST(GratingBus, AHostThatHasSampledReadHighDoesNotDriveTheAddressLater) {
     Crate crate(crew(1));
     crate.run(frame_period - microseconds(1));
     crate.kernel.force(crate.kernel.find_wire("bus.read_n"), 1);

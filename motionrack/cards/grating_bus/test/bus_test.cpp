@@ -47,7 +47,7 @@ TEST_P(GratingBusOf, ManySlavesHaveTheFramesOfTheHostWhichAreTrueAtHold) {
 }
 INSTANTIATE_TEST_SUITE_P(Slaves, GratingBusOf, testing::Values(0, 1, 2, 5, 10, 30));
 
-TEST(GratingBus, AFrameDoesNotDependOnItsObservers) {
+TEST(GratingBus, AFrameIsTheSameWithAndWithoutObservers) {
     for (const int scales : {1, 8, 128}) {
         Crate fast(crew(2, scales), scales), slow(crew(2, scales), scales), turning(crew(2, scales), scales);
         slow.watch_wires();
@@ -105,7 +105,7 @@ TEST(GratingBus, ThreeHostsDisturbEachOtherAndTheBusReportsWhich) {
                                HasSubstr("one host"))));
 }
 
-TEST(GratingBus, HostsWithChecksPublishNothingThatTheyCannotTrust) {
+TEST(GratingBus, HostsThatVerifyTheLinesPublishNoInvalidFrame) {
     std::vector<CardSettings> settings(3, host_settings());
     settings[1].offset = nanoseconds(37);
     settings[2].offset = nanoseconds(90);
@@ -137,7 +137,7 @@ TEST(GratingBus, ReadsTheSameFrameOnASlightlyLateSlaveAndNoneOnAVeryLateOne) {
     EXPECT_THAT(crate.sentences(), Contains(AllOf(HasSubstr("card c2"), HasSubstr("stale"))));
 }
 
-TEST(GratingBus, ASlaveOneWordLateSeesThatTheAddressesAreNotItsOwn) {
+TEST(GratingBus, ASlaveThatIsOneWordLateDetectsForeignAddresses) {
     Crate crate(crew(1));
     ASSERT_TRUE(crate.cards[1]->fault("late", 110, crate.kernel.now()));
     crate.run(5 * period);
@@ -146,7 +146,7 @@ TEST(GratingBus, ASlaveOneWordLateSeesThatTheAddressesAreNotItsOwn) {
     EXPECT_EQ(crate.cards[1]->counter(Card::missed_words), 5);
 }
 
-TEST(GratingBus, ASlaveThatMissesEdgesStaysInStepAndReportsIt) {
+TEST(GratingBus, ASlaveThatMissesEdgesStaysSynchronousAndReportsThem) {
     Crate crate(crew(1));
     crate.run(5 * period - microseconds(50));
     ASSERT_TRUE(crate.cards[1]->fault("miss_edge", 3, crate.kernel.now()));
@@ -159,7 +159,7 @@ TEST(GratingBus, ASlaveThatMissesEdgesStaysInStepAndReportsIt) {
     EXPECT_THAT(crate.sentences(), Contains(HasSubstr("3 edges of clk before frame 8 were missed")));
 }
 
-TEST(GratingBus, WhenTheHostIsGoneSlavesMarkTheirDataStaleWithinTwoPeriods) {
+TEST(GratingBus, SlavesMarkTheirDataStaleWithinTwoPeriodsAfterTheHostStops) {
     Crate crate(crew(3));
     crate.run(5 * period + microseconds(30));
     ASSERT_TRUE(crate.cards[0]->fault("off", 1, crate.kernel.now()));
@@ -202,7 +202,7 @@ struct Stuck {
 };
 class GratingBusStuck : public testing::TestWithParam<Stuck> {};
 
-TEST_P(GratingBusStuck, NoCardPublishesAWrongFrameAndThoseWithoutSaySo) {
+TEST_P(GratingBusStuck, NoCardPublishesAWrongFrameAndCardsWithoutAFrameReportIt) {
     const Stuck& stuck = GetParam();
     Crate crate(crew(2));
     crate.run(4 * period + nanoseconds(100));
@@ -317,7 +317,7 @@ TEST(GratingBus, ARemoteCardHoldsOnlyFramesFromOutside) {
     EXPECT_THAT(crate.sentences(), Contains(AllOf(HasSubstr("card c2"), HasSubstr("CRC"))));
 }
 
-TEST(GratingBus, WhatDoesNotFitIsRefusedWithItsNumbers) {
+TEST(GratingBus, RejectsInconsistentTimingAndScaleCountsWithTheValues) {
     CardSettings s = host_settings(128);
     s.period = microseconds(10);
     EXPECT_THAT(check(s).error().message,

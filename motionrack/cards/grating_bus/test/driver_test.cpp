@@ -29,7 +29,7 @@ struct Bench : Crate {
     std::vector<std::unique_ptr<GratingCard>> libraries;
 };
 
-TEST(GratingCardLibrary, KnowsHowTheCardIsSet) {
+TEST(GratingCardLibrary, ReadsTheSettingsOfTheCard) {
     std::vector<CardSettings> settings = crew(1, 6);
     settings[1].clock_shifter = Shifter::out;
     Bench bench(settings, 6);
@@ -46,7 +46,7 @@ TEST(GratingCardLibrary, KnowsHowTheCardIsSet) {
     EXPECT_EQ(host->period, driver_period);
 }
 
-TEST(GratingCardLibrary, KnowsTheListOfTheCard) {
+TEST(GratingCardLibrary, ReadsTheAddressListOfTheCard) {
     std::vector<CardSettings> settings = crew(1, 3);
     for (CardSettings& s : settings) s.addresses = {5, 2, 9};
     Bench bench(settings, 10);
@@ -83,7 +83,7 @@ TEST(GratingCardLibrary, ReadsTheSamePositionsFromEveryCard) {
         EXPECT_EQ(host->counts()[static_cast<std::size_t>(k)], bench.truth(k, host->frame.instant()));
 }
 
-TEST(GratingCardLibrary, IsNeverShownHalfAFrameHoweverSlowItReads) {
+TEST(GratingCardLibrary, ReadsCompleteFramesOnlyHoweverSlowlyItReads) {
     Bench bench(crew(0, 8), 8, microseconds(37));  // reading a frame takes about 5 periods
     bench.run(driver_period);
     std::uint32_t last = 0;
@@ -125,7 +125,7 @@ TEST(GratingCardLibrary, ReportsAMissingFrameAndALostHost) {
     EXPECT_THAT(bench.libraries[1]->read().error().message, HasSubstr("stale"));
 }
 
-TEST(GratingCardLibrary, AStoppedWaitIsNotReportedAsATimeOut) {
+TEST(GratingCardLibrary, AStoppedWaitIsNotReportedAsATimeout) {
     Bench bench(crew(1));
     ASSERT_TRUE(bench.cards[0]->fault("off", 1, bench.kernel.now()));
     const std::atomic<bool> stop{true};
@@ -174,7 +174,7 @@ struct Stranger : RegisterPort, Interrupt {
     Instant now() const override { return {}; }
 };
 
-TEST(GratingCardLibrary, RefusesWhateverElseAnswers) {
+TEST(GratingCardLibrary, RejectsDevicesThatAreNotAGratingCard) {
     Stranger stranger;
     GratingCard library(stranger, stranger);
     EXPECT_THAT(library.open().error().message, HasSubstr("FFFFh"));

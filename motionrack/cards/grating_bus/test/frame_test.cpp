@@ -29,7 +29,7 @@ TEST(GratingFrame, FindsAScaleByItsAddress) {
     EXPECT_FALSE(same(frame, other));
 }
 
-TEST(GratingFrame, IsSoundWithItsOwnCrcOnly) {
+TEST(GratingFrame, IsValidWithItsOwnCrcOnly) {
     Frame frame = example();
     EXPECT_TRUE(sound(frame));
     frame.counts[1] ^= 1u << 20;
@@ -60,7 +60,7 @@ TEST(GratingFrame, IsTheSameWhateverIsBeyondItsWords) {
     EXPECT_FALSE(same(a, b));
 }
 
-TEST(GratingFrame, LastsAsLongAsTheSourceStates) {
+TEST(GratingFrame, HasTheDurationThatTheSourceStates) {
     constexpr BusTiming timing;
     EXPECT_EQ(timing.frame_time(4), nanoseconds(450));
     EXPECT_EQ(timing.frame_time(8), nanoseconds(890));

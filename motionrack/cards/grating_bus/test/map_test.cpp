@@ -73,7 +73,7 @@ TEST(GratingBusMap, TheSequenceTakesTheDeclaredSteps) {
         }
 }
 
-TEST(GratingBusMap, AnyMomentOfAFrameIsWhatItsStepsComeTo) {
+TEST(GratingBusMap, AnyInstantOfAFrameHasTheStateThatItsStepsGive) {
     for (const int words : {1, 2, 7, 128}) {
         const BusTiming timing{nanoseconds(17), nanoseconds(29), Duration{3}, nanoseconds(8)};
         State state = State::S1;

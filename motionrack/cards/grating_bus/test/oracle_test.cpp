@@ -58,11 +58,11 @@ void compare_with_twin(std::uint64_t first, std::uint64_t programs, bool with_sn
               << " reports, " << looks << " looks" << std::endl;
 }
 
-TEST(GratingBusOracle, RandomProgramsLookTheSameOnTheCardsAndOnTheirTwin) {
+TEST(GratingBusOracle, RandomProgramsGiveTheSameReadingsOnTheCardsAndTheirTwin) {
     compare_with_twin(0, cases("MOTIONRACK_PROGRAMS", 2500), false);
 }
 
-TEST(GratingBusOracle, ARestoredSnapshotGivesTheSameRest) {
+TEST(GratingBusOracle, ARestoredSnapshotContinuesIdentically) {
     compare_with_twin(1'000'000, cases("MOTIONRACK_PROGRAMS", 2500) / 5, true);
 }
 

@@ -33,7 +33,7 @@ void check(const Profile& profile, double until, const MotionLimits& max_motion)
     }
 }
 
-TEST(ScanProfile, GoesToAndFroWithinItsLimitsAndAtConstantSpeedBetween) {
+TEST(ScanProfile, MovesBackAndForthWithinItsLimitsAndAtConstantVelocityBetween) {
     const ScanProfile scan(-1e6, 3e6, limits);
     check(scan, scan.lead_s() + 2 * scan.period_s(), limits);
     EXPECT_EQ(scan.at(-1).position_nm, scan.start_nm());
@@ -55,7 +55,7 @@ TEST(ScanProfile, GoesToAndFroWithinItsLimitsAndAtConstantSpeedBetween) {
     EXPECT_LT(scanning, total);
 }
 
-TEST(ScanProfile, SmallChangesOfSpeedNeverReachTheGreatestAcceleration) {
+TEST(ScanProfile, SmallVelocityChangesNeverReachTheMaximumAcceleration) {
     const MotionLimits slow{1e6, 5e9, 1e12};
     check(ScanProfile(0, 1e4, slow), 0.1, slow);
 }
@@ -206,7 +206,7 @@ TEST(ServoLoop, LosesStabilityWithLateFrames) {
     EXPECT_GT(moving[2], 1.5 * moving[1]);
 }
 
-TEST(ServoLoop, CountsOfAnotherInstantAreAnErrorThatTheLoopCannotSee) {
+TEST(ServoLoop, CountsOfAnotherInstantAreAPositionErrorThatTheLoopCannotDetect) {
     const ScanProfile scan(2e6, 20e6, limits);
     for (const std::int64_t us : {1, 5, 20}) {
         Axis axis;
@@ -243,7 +243,7 @@ TEST(ServoLoop, StaleDataOpenTheLoopUntilItIsClosedAgain) {
     EXPECT_TRUE(axis.loop.closed());
 }
 
-TEST(ServoLoop, TooGreatAnErrorOpensTheLoopBeforeItRunsAway) {
+TEST(ServoLoop, OpensOnExcessiveFollowingError) {
     Axis axis;
     ServoSettings s = axis.loop.settings();
     s.max_following_error_nm = 2'000;
@@ -261,7 +261,7 @@ TEST(ServoLoop, TooGreatAnErrorOpensTheLoopBeforeItRunsAway) {
     EXPECT_EQ(axis.loop.state(), LoopState::too_far) << "what opened it first stays";
 }
 
-TEST(ServoLoop, OpensWhenTwoFramesInARowHaveNotItsScale) {
+TEST(ServoLoop, OpensWhenTwoConsecutiveFramesLackItsScale) {
     Axis axis;
     axis.kernel.run_until(servo_period);
     const double volts = axis.loop.on_frame(axis.latch(servo_period), {1'000, 0, 0});
@@ -281,7 +281,7 @@ TEST(ServoLoop, OpensWhenTwoFramesInARowHaveNotItsScale) {
     EXPECT_EQ(axis.loop.unused(), 3u);
 }
 
-TEST(ServoLoop, FramesThatAreNotSoundOrNotNewAreCountedAndNotUsed) {
+TEST(ServoLoop, InvalidAndRepeatedFramesAreCountedAndNotUsed) {
     Axis axis;
     axis.kernel.run_until(servo_period);
     Frame frame = axis.latch(servo_period);

@@ -40,7 +40,7 @@ std::vector<Ticks> entered(const Twin& twin, int card, int state, int other) {
     return out;
 }
 
-TEST(GratingTwin, FramesLastAsLongAsTheSourceStates) {
+TEST(GratingTwin, FramesHaveTheDurationThatTheSourceStates) {
     for (const auto& [words, lasts] :
          std::vector<std::pair<int, Ticks>>{{1, 120}, {4, 450}, {8, 890}, {16, 1770}, {128, 14'090}}) {
         Twin twin({host(words)}, {decoder(128)});
@@ -60,7 +60,7 @@ TEST(GratingTwin, FramesLastAsLongAsTheSourceStates) {
     }
 }
 
-TEST(GratingTwin, WalksTheStatesInTheSourcesOrder) {
+TEST(GratingTwin, PassesTheStatesInTheOrderOfTheSource) {
     Twin twin({host(2)}, {decoder(2)});
     twin.run_to(1000 * ns);
     std::vector<std::pair<Ticks, int>> walked;
@@ -103,7 +103,7 @@ TEST(GratingTwin, HostAndTenSlavesHoldTheCountsOfHold) {
     }
 }
 
-TEST(GratingTwin, SeesTheLinesAsTheyWereJustBeforeTheSample) {
+TEST(GratingTwin, SamplesTheLinesAsTheyWereJustBeforeTheSample) {
     DecoderSettings slow = decoder(4);
     slow.output = 30 * ns;  // output at the very instant of the sample
     Twin twin({host(4)}, {slow});
@@ -113,7 +113,7 @@ TEST(GratingTwin, SeesTheLinesAsTheyWereJustBeforeTheSample) {
     for (int k = 1; k < 4; ++k) EXPECT_EQ(frame.counts[static_cast<std::size_t>(k)], moving(k - 1, 0));
 }
 
-TEST(GratingTwin, HostsBesideEachOtherConflictAndTheLowLevelWins) {
+TEST(GratingTwin, SeveralHostsConflictAndTheLowLevelDominates) {
     CardSettings second = host(2);
     second.offset = 35 * ns;
     Twin twin({host(2), second}, {decoder(4)});
@@ -146,7 +146,7 @@ TEST(GratingTwin, AMissedEdgeCountsAndTheSequenceContinues) {
     EXPECT_EQ(stale, (std::vector<std::pair<Ticks, bool>>{{110, false}, {400'000, true}, {800'110, false}}));
 }
 
-TEST(GratingTwin, AClaimedFrameIsNotWrittenOver) {
+TEST(GratingTwin, AClaimedFrameIsNotOverwritten) {
     Twin twin({host(1)}, {decoder(1)});
     twin.claim(0);
     EXPECT_FALSE(twin.claimed(0));

@@ -36,7 +36,7 @@ TEST(Ioflex02Calibration, ResNmZeroesAtTheFirstIndexOnly) {
     EXPECT_EQ(of_axis(rig, 1, offset("INDEX_AT_L")), 133);  // in counts, which a calibration does not zero
 }
 
-TEST(Ioflex02Calibration, AnIndexThatIsHighAlreadyIsNone) {
+TEST(Ioflex02Calibration, AnIndexThatIsAlreadyHighIsIgnored) {
     Rig rig;
     rig.start();
     rig.set("z0", 1);
@@ -85,7 +85,7 @@ TEST(Ioflex02Calibration, ResNmSigWaitsForCalThenForTheIndex) {
     EXPECT_EQ(position(rig, 3), 0);
 }
 
-TEST(Ioflex02Calibration, CalAndIndexInOneSampleAreNoCalBeforeTheIndex) {
+TEST(Ioflex02Calibration, AnIndexInTheSampleOfCalIsIgnored) {
     Rig rig;
     rig.start();
     rig.command(0, cResNmSig);
@@ -115,7 +115,7 @@ TEST(Ioflex02Calibration, ANewCommandReplacesPendingCommandsOfAllAxes) {
     EXPECT_EQ(rig.read(offset("STS")), 0b1101);
 }
 
-TEST(Ioflex02Calibration, AnAxisThatKeepsTakesNoCommandAndLosesNothingThatItHasSeen) {
+TEST(Ioflex02Calibration, AnAxisWithKeepIgnoresTheCommandAndKeepsItsArmedState) {
     Rig rig;
     rig.start();
     for (int axis = 0; axis < 4; ++axis) rig.turn(axis, 40);

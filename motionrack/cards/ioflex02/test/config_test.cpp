@@ -20,7 +20,7 @@ int error_after(const std::vector<std::uint8_t>& raw) {
     return rig.read(state) == failed ? rig.read(error) : -1;
 }
 
-TEST(Ioflex02Image, IsTakenAndTheProjectRunsAfterTheTimeOfConfiguration) {
+TEST(Ioflex02Image, IsAcceptedAndTheProjectRunsAfterTheConfigurationTime) {
     Rig rig{Settings{}};
     rig.start();
     EXPECT_EQ(rig.read(state), 0);
@@ -95,7 +95,7 @@ TEST(Ioflex02Image, TheRefusalIsReportedInASentence) {
     EXPECT_EQ(rig.read(state), starting);
 }
 
-TEST(Ioflex02Image, AnUnknownProjectIsTakenButOnlyItsIdentCanBeRead) {
+TEST(Ioflex02Image, AnUnknownProjectIsAcceptedButOnlyItsIdentCanBeRead) {
     Rig rig{Settings{}};
     rig.start();
     ImageContent content;
@@ -111,7 +111,7 @@ TEST(Ioflex02Image, AnUnknownProjectIsTakenButOnlyItsIdentCanBeRead) {
     EXPECT_EQ(rig.level("out0"), 0);
 }
 
-TEST(Ioflex02Image, WithoutAProjectItsRegistersReadFFFFAndTakeNothingAndThatIsReportedOnce) {
+TEST(Ioflex02Image, WithoutAProjectRegistersReadFFFFAndIgnoreWritesAndThatIsReportedOnce) {
     Rig rig{Settings{}};
     rig.start();
     rig.write(offset("OUTL"), 0xFF);
@@ -121,7 +121,7 @@ TEST(Ioflex02Image, WithoutAProjectItsRegistersReadFFFFAndTakeNothingAndThatIsRe
     EXPECT_EQ(rig.conditions(), std::vector{CardCondition::no_project});
 }
 
-TEST(Ioflex02Image, ConfiguringAgainEndsWhatRan) {
+TEST(Ioflex02Image, ConfiguringAgainEndsTheRunningProject) {
     Rig rig;
     rig.start();
     rig.turn(0, 8);
@@ -164,7 +164,7 @@ TEST(Ioflex02Image, IdentifiesItself) {
     EXPECT_EQ(inspect(*raw_image({"sixteen letters.", 1, std::vector<std::uint8_t>(8)}))->project, "sixteen letters.");
 }
 
-TEST(Ioflex02Image, TheCardRefusesWhatInspectRefusesAndNothingElse) {
+TEST(Ioflex02Image, TheCardRejectsExactlyTheImagesThatInspectRejects) {
     const auto refused = [](std::vector<std::uint8_t> raw, const char* sentence) {
         ASSERT_FALSE(inspect(raw)) << sentence;
         EXPECT_NE(inspect(raw).error().message.find(sentence), std::string::npos) << inspect(raw).error().message;
@@ -193,7 +193,7 @@ RC_GTEST_PROP(Ioflex02Image, BytesAreTheSameAfterTheirDigits, (std::vector<std::
     RC_ASSERT(*bytes_of_hex(hex_text(bytes)) == bytes);
 }
 
-TEST(Ioflex02Image, DigitsThatAreNoneAreReportedWithTheirLocation) {
+TEST(Ioflex02Image, InvalidHexDigitsAreReportedWithTheirLocation) {
     for (const char* wrong : {"7", "78d", "78 d", "-1", "0x", "78zz"}) EXPECT_FALSE(bytes_of_hex(wrong)) << wrong;
     EXPECT_NE(bytes_of_hex("78zz").error().message.find("Digits 3 and 4"), std::string::npos);
     EXPECT_EQ(*bytes_of_hex("78dA"), (std::vector<std::uint8_t>{0x78, 0xDA}));
@@ -229,7 +229,7 @@ TEST(Ioflex02Image, RejectsTruncatedDamagedForeignAndOversizedFiles) {
         << unpacked(bomb).error().message;
 }
 
-TEST(Ioflex02Image, ContentsOutOfRangeMakeNoImage) {
+TEST(Ioflex02Image, ContentsOutOfRangeAreRejected) {
     ImageContent content;
     content.project = "a name that is too long";
     EXPECT_FALSE(raw_image(content));

@@ -124,7 +124,7 @@ TEST(Flex2PosTraffic, WithoutASuccessfulInitNothingIsWrittenAndReadsGiveZero) {
 
 // ---- Init
 
-TEST(Flex2PosInit, ConfiguresTheVirtualCardAndTakesItsTwoSeconds) {
+TEST(Flex2PosInit, ConfiguresTheVirtualCardInTwoSeconds) {
     Bench b;
     b.card.Init(0x2300);
     EXPECT_EQ(b.card.Result, Flex_Ok) << b.card.why();

@@ -76,7 +76,7 @@ struct Winding : Machine<parts::Resolver, parts::ResolverSettings> {
     Winding() : Machine({.counts_per_turn = 400, .position_per_turn = 4000}) {}
 };
 
-TEST(EncoderCheck, FindsNothingAtAHealthyEncoderThatGoesToAndFro) {
+TEST(EncoderCheck, ReportsNothingForASoundEncoderThatMovesBackAndForth) {
     Disc m;
     for (const std::int64_t steps : {3'000, -9'000, 30'000, -100, 100, -40'000}) m.go(steps);
     EXPECT_TRUE(m.found.empty()) << m.sentence(m.found[0]);
@@ -101,7 +101,7 @@ RC_GTEST_PROP(EncoderCheck, NeverBlamesAHealthyEncoderOrResolver, ()) {
     RC_ASSERT(winding.found.empty());
 }
 
-TEST(EncoderCheck, NamesTheLineThatIsBroken) {
+TEST(EncoderCheck, ReportsTheBrokenLineByName) {
     for (const bool a : {true, false}) {
         Disc m;
         m.go(2'500);
@@ -189,7 +189,7 @@ TEST(EncoderCheck, ReportsTheNumberOfLostLinesBetweenTwoIndexes) {
     EXPECT_TRUE(m.rig.conditions().empty());  // the card itself cannot see it
 }
 
-TEST(EncoderCheck, ReportsCountsThatAnOverSpeedLost) {
+TEST(EncoderCheck, ReportsCountsLostByOverspeed) {
     Disc m;
     m.go(6'000);
     m.fault("overspeed", 20'000);

@@ -10,7 +10,7 @@
 namespace motionrack::ioflex02 {
 namespace {
 
-TEST(Ioflex02Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
+TEST(Ioflex02Fuzz, TheCardSurvivesAnyAccessAtAnyTime) {
     const std::uint64_t seed = seed_from_environment();
     const auto count = static_cast<std::int64_t>(cases("MOTIONRACK_ACCESSES", 500'000));
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << count << " accesses" << std::endl;
@@ -30,7 +30,7 @@ TEST(Ioflex02Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
     EXPECT_GT(verdict.refused, 500);
 }
 
-TEST(Ioflex02Fuzz, EqualInputsGiveEqualHistoriesHoweverOftenTheyAreObserved) {
+TEST(Ioflex02Fuzz, EqualInputsGiveEqualEventTracesHoweverOftenTheyAreObserved) {
     std::mt19937_64 random(seed_from_environment(2004));
     Rig one, two;
     one.start();

@@ -215,11 +215,11 @@ void compare(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
               << std::endl;
 }
 
-TEST(Ioflex02Oracle, RandomProgramsLookTheSameOnTheCardAndOnItsTwin) {
+TEST(Ioflex02Oracle, RandomProgramsGiveTheSameReadingsOnTheCardAndItsTwin) {
     compare(0, cases("MOTIONRACK_PROGRAMS", 3000), false);
 }
 
-TEST(Ioflex02Oracle, ARestoredSnapshotGivesTheSameRest) {
+TEST(Ioflex02Oracle, ARestoredSnapshotContinuesIdentically) {
     compare(1'000'000, 300, true);
 }
 

@@ -100,7 +100,7 @@ TEST(SpeedMeter, ContinuesOverTheWrapOfTheTime) {
     }
 }
 
-TEST(SpeedMeter, ReadingsFurtherApartThanTheWrapAreNoTrouble) {
+TEST(SpeedMeter, MeasuresBetweenReadingsFartherApartThanTheWrap) {
     Turning t(0.04);  // 25 s per count: the age of the last one is out of range
     t.measure();
     for (int i = 0; i < 12; ++i) {
@@ -111,7 +111,7 @@ TEST(SpeedMeter, ReadingsFurtherApartThanTheWrapAreNoTrouble) {
     }
 }
 
-TEST(SpeedMeter, AnAxisThatStopsComesToZeroWithAFallingBound) {
+TEST(SpeedMeter, AnAxisThatStopsApproachesZeroWithAFallingBound) {
     Turning t(1000);
     t.measure();
     t.run(milliseconds(50));
@@ -131,7 +131,7 @@ TEST(SpeedMeter, AnAxisThatStopsComesToZeroWithAFallingBound) {
     EXPECT_LT(before, 0.1);
 }
 
-TEST(SpeedMeter, AnAxisThatNeverMovedIsKnownToStandStillOnlyForAsLongAsItWasSeen) {
+TEST(SpeedMeter, AnAxisThatNeverMovedHasAnErrorBoundFromItsObservedTime) {
     Turning t(1e-9);
     t.measure();
     t.run(milliseconds(500));

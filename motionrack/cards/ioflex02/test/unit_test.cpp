@@ -47,7 +47,7 @@ TEST(Flex2Pos, ConfiguringAgainCountsFromZero) {
     EXPECT_EQ(r.card.read().axes[1].position, -8);
 }
 
-TEST(Flex2Pos, AnImageOfOnesOwnIsWhatInitLoads) {
+TEST(Flex2Pos, InitLoadsTheUsersImage) {
     Configured r;
     r.card.use_image(compressed(*raw_image({"position", 0x24, std::vector<std::uint8_t>(8)})));
     r.card.Init(0x2300);
@@ -90,7 +90,7 @@ TEST(Flex2Pos, ArmsOneAxisWhileTheOthersKeepWhatTheyWaitFor) {
 
 // 5.2.5: "2 mm a period and 4096 parts a period: about +-2 m". With one count per part, signed 24 bits reach twice as
 // far.
-TEST(Flex2Pos, AScaleOfTwoMetresEitherWayFitsIntoThePosition) {
+TEST(Flex2Pos, AScaleOfTwoMetresInEachDirectionFitsIntoThePosition) {
     const Units scale = *Units::mm(4096 / 2.0);
     EXPECT_DOUBLE_EQ(scale.of_counts(signed24(0x800000)), -4096);
     EXPECT_NEAR(scale.of_counts(signed24(0x7FFFFF)), 4096, 1e-3);
