@@ -19,7 +19,7 @@ constexpr unsigned filter_of_in2 = field("EM6", "FE1").mask, ring = field("EM6",
 
 // ---- the variant
 
-TEST(ChipAs, TheOriginalRefusesItsCommandsAndReportsWhichChipHasThem) {
+TEST(ChipAs, TheMcx314IgnoresItsCommandsAndReportsWhichChipHasThem) {
     Bench b;
     b.start();
     for (const unsigned code : {0x0Eu, 0x14u, 0x60u, 0x61u, 0x62u, 0x63u, 0x64u, 0x65u}) b.command(X, code);
@@ -126,7 +126,7 @@ TEST(ChipAs, AHandWheelDrivesAtEachOfItsCycles) {
 
 // ---- counters
 
-TEST(ChipAs, InARingTheCountersGoFromTheGreatestValueToZeroAndBack) {
+TEST(ChipAs, InARingTheCountersWrapFromTheMaximumToZeroAndBack) {
     ChipAsHost b;
     b.start();
     b.data(X, cmd::COMP_PLUS, 9);
@@ -149,7 +149,7 @@ TEST(ChipAs, InARingTheCountersGoFromTheGreatestValueToZeroAndBack) {
     EXPECT_EQ(b.lp(X), 3);
 }
 
-TEST(ChipAs, TheRingHoldsForAConnectedEncoderToo) {
+TEST(ChipAs, TheRingAppliesToAConnectedEncoder) {
     ChipAsHost b;
     HandWheel wheel;
     b.chip.connect_encoder(0, wheel);
@@ -288,7 +288,7 @@ TEST(ChipAs, TrianglePreventionGivesHalfThePulsesToConstantSpeed) {
     }
 }
 
-TEST(ChipAs, AfterATrianglePreventedTheNextDriveGoesToVAgain) {
+TEST(ChipAs, TheDriveAfterAPreventedTriangleReachesVAgain) {
     ChipAsHost b;
     b.start();
     b.speeds(X, 80'000, 100, 3000, 1000);
@@ -329,7 +329,7 @@ TEST(ChipAs, AsymmetricRampsDecelerateByThemselvesToTheStartSpeed) {
     EXPECT_GT(end_of_asymmetric_drive(Variant::mcx314, 800, 200).speed, 3000) << "the original reckons with A";
 }
 
-TEST(ChipAs, TheFallingSCurveHasAJerkOfItsOwn) {
+TEST(ChipAs, TheDecelerationOfAnSCurveHasItsOwnJerk) {
     const auto falling_time = [](Variant variant, std::int64_t l) {
         Bench b(variant);
         b.start();

@@ -10,7 +10,7 @@ namespace {
 
 // The maker's sample: R = 800,000 (M = 10), A = D = 200, SV = 100, V = 4000: 1,000 to 40,000 pps in 0.156 s, 3,198
 // pulses each way.
-TEST(ChipDrive, ATrapezoidHasTheMakersRampAndExactlyItsPulses) {
+TEST(ChipDrive, ATrapezoidHasTheDocumentedRampAndExactlyItsPulses) {
     Bench b;
     EdgeLog log;
     b.start();
@@ -91,7 +91,7 @@ TEST(ChipDrive, AnSCurveReachesItsSpeedInTheComputedTime) {
     EXPECT_EQ(b.lp(X), 50'000);
 }
 
-TEST(ChipDrive, ANewSpeedAndANewTargetCountDuringTheDrive) {
+TEST(ChipDrive, ANewSpeedAndANewTargetApplyDuringTheDrive) {
     Bench b;
     b.start();
     b.speeds(X, 80'000, 100, 1000);
@@ -188,7 +188,7 @@ TEST(ChipDrive, TheEmergencyInputStopsEveryAxisAtOnce) {
     for (const unsigned axis : {X, Y, Z, U}) EXPECT_TRUE(b.status(axis, 1) & 0x8000u);
 }
 
-TEST(ChipDrive, ASoftwareLimitDeceleratesAndLetsTheAxisBack) {
+TEST(ChipDrive, ASoftwareLimitDeceleratesAndAllowsTheOtherDirection) {
     Bench b;
     b.start();
     b.speeds(X, 80'000, 100, 1000, 2000);
@@ -288,7 +288,7 @@ TEST(ChipDrive, TheDriveBitWaitsForInPosition) {
     EXPECT_FALSE(b.read(0) & X);
 }
 
-TEST(ChipDrive, CommandsThatCannotBeDoneAreReportedAndChangeNothing) {
+TEST(ChipDrive, ImpossibleCommandsAreReportedAndChangeNothing) {
     Bench b;
     b.start();
     b.speeds(X, 80'000, 1000, 1000);

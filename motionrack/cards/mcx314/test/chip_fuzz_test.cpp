@@ -34,7 +34,7 @@ Verdict run_all(std::uint64_t seed, std::int64_t accesses, Variant variant) {
 
 class ChipFuzz : public testing::TestWithParam<Variant> {};
 
-TEST_P(ChipFuzz, AMillionRandomAccessesBreakNothingAndAreRepeatable) {
+TEST_P(ChipFuzz, AMillionRandomAccessesAreSurvivedAndReproducible) {
     const std::uint64_t seed = seed_from_environment();
     const std::int64_t accesses = static_cast<std::int64_t>(cases("MOTIONRACK_ACCESSES", 1'000'000));
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << accesses << " accesses" << std::endl;

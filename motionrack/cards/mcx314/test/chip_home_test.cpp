@@ -68,7 +68,7 @@ struct Homing : Bench {
     sim::WireConnections junctions;
 };
 
-TEST(ChipHome, SearchesSwitchIndexAndOffsetToTheVeryPulse) {
+TEST(ChipHome, FindsSwitchIndexAndOffsetToTheExactPulse) {
     for (const double start_mm : {100.0, 45.0, 25.0}) {
         Homing b(start_mm, 4);
         b.extension(home_interrupt | slow_filters, steps_minus_minus_plus_plus | clear_counters | clear_pulse);
@@ -87,7 +87,7 @@ TEST(ChipHome, SearchesSwitchIndexAndOffsetToTheVeryPulse) {
     }
 }
 
-TEST(ChipHome, GoesBackOutOfTheSwitchWhereItBeginsWithinIt) {
+TEST(ChipHome, LeavesTheSwitchFirstIfItStartsOnIt) {
     for (const bool filtered : {false, true}) {
         Homing b(3, 4);
         b.extension(filtered ? slow_filters : 0u, steps_minus_minus_plus_plus);
@@ -96,7 +96,7 @@ TEST(ChipHome, GoesBackOutOfTheSwitchWhereItBeginsWithinIt) {
     }
 }
 
-TEST(ChipHome, AnIndexThatIsActiveAlreadyIsAnError) {
+TEST(ChipHome, AnIndexThatIsAlreadyActiveIsAnError) {
     Homing b(100, 5);  // IN1 acts at the very position of an index
     b.extension(home_interrupt, steps_minus_minus_plus_plus | clear_counters);
     EXPECT_EQ(b.search(), (std::vector<unsigned>{3, 8}));
@@ -118,7 +118,7 @@ TEST(ChipHome, TheLimitSwitchCanBeTheHomeSwitch) {
     EXPECT_EQ(b.machine.lost_steps(), 0);
 }
 
-TEST(ChipHome, TheIndexCountsOnlyWithinTheSwitchWhereBothAreAskedFor) {
+TEST(ChipHome, TheIndexIsAcceptedOnlyWithinTheSwitchIfBothAreRequired) {
     Homing b(100, 4);
     b.data(X, cmd::HV, 500);  // no longer slow: it stops decelerating, beyond the index
     b.extension(0, 0x30 | z_within_in1);
@@ -152,7 +152,7 @@ struct HomeByHand : Bench {
     }
 };
 
-TEST(ChipHome, StepTwoComesBackFromALimitThatItMeets) {
+TEST(ChipHome, StepTwoReversesAtALimit) {
     HomeByHand b(0x0C);  // only step 2, towards -
     b.command(Y, cmd::HOME);
     EXPECT_EQ(hmst(b, Y), 8u);
@@ -173,7 +173,7 @@ TEST(ChipHome, StepTwoComesBackFromALimitThatItMeets) {
     EXPECT_EQ(b.status(Y, 3), 0x0100u);
 }
 
-TEST(ChipHome, BeginsAtALimitToo) {
+TEST(ChipHome, StartsAtALimit) {
     HomeByHand b(0x0F);
     b.wire("ylmtm", 0);
     b.command(Y, cmd::HOME);
@@ -183,7 +183,7 @@ TEST(ChipHome, BeginsAtALimitToo) {
     EXPECT_EQ(b.direction(), 1);
 }
 
-TEST(ChipHome, StopsAlarmsAndTheOtherLimitEndIt) {
+TEST(ChipHome, EndsOnAStopAnAlarmOrTheOppositeLimit) {
     const struct {
         const char* pin;
         unsigned command, rr1;
@@ -214,7 +214,7 @@ TEST(ChipHome, StopsAlarmsAndTheOtherLimitEndIt) {
     }
 }
 
-TEST(ChipHome, DriveCommandsAreIgnoredWhileItSearches) {
+TEST(ChipHome, IgnoresDriveCommandsDuringTheSearch) {
     HomeByHand b(0x01);
     b.command(Y, cmd::HOME);
     b.advance(milliseconds(1));

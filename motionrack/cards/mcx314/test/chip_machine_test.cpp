@@ -136,7 +136,7 @@ void expect_every_way(const std::set<std::string>& taken, std::size_t from, std:
     }
 }
 
-TEST(ChipMachines, TheChipGoesWhereTheTablesLeadAndTakesEveryWay) {
+TEST(ChipStateTables, TheChipTakesEveryTransitionOfItsStateTablesAndNoOther) {
     std::set<std::string> taken;
     watch_programs(taken, 4'000'000, 500, Variant::mcx314);
     for (int axis = 0; axis < 4; ++axis) {  // transitions that last one tick only
@@ -156,7 +156,7 @@ TEST(ChipMachines, TheChipGoesWhereTheTablesLeadAndTakesEveryWay) {
     expect_every_way(taken, 0, machines_of_original);
 }
 
-TEST(ChipMachines, SoDoesTheMcx314As) {
+TEST(ChipStateTables, TheMcx314AsTakesEveryTransitionOfItsStateTablesAndNoOther) {
     std::set<std::string> taken;
     watch_programs(taken, 14'000'000, 600, Variant::mcx314as);
     expect_every_way(taken, machines_of_original, std::size(machines));

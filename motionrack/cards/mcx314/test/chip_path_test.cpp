@@ -27,7 +27,7 @@ void command_segment(Bench& b, const PathSegment& s) {
 
 // The maker's sample: a running track of four lines and four quarter circles of 1,500 pulses, without a stop at the
 // junctions.
-TEST(ChipPath, TheMakersContourCloses) {
+TEST(ChipPath, TheDocumentedContourCloses) {
     const PathSegment track[] = {
         {0x30, 0, 0, 4500, 0},  {0x33, 0, 1500, 1500, 1500},    {0x30, 0, 0, 0, 1500},  {0x33, -1500, 0, -1500, 1500},
         {0x30, 0, 0, -4500, 0}, {0x33, 0, -1500, -1500, -1500}, {0x30, 0, 0, 0, -1500}, {0x33, 1500, 0, 1500, -1500}};
@@ -90,7 +90,7 @@ TEST(ChipPath, StartsAHeldLineWhenAx1IsReleased) {
     EXPECT_EQ(b.lp(Y), 10);
 }
 
-TEST(ChipPath, TheInterruptAtAJointIsClearedByTheNextSegmentOr3Dh) {
+TEST(ChipPath, TheInterruptAtAJunctionIsClearedByTheNextSegmentOr3Dh) {
     Bench b;
     b.start();
     b.speeds(X | Y, 800'000, 100, 100);
@@ -175,7 +175,7 @@ RC_GTEST_PROP(ChipPath, AnyFullCircleStaysWithinAPulseAndReturns, ()) {
     RC_ASSERT(static_cast<std::int64_t>(pulses) == rules::end_of_arc(cx, cy, 0, 0, clockwise).basic_pulses);
 }
 
-TEST(ChipPath, AFinishPointBesideTheCircleEndsWhereTheShortAxisPassesIt) {
+TEST(ChipPath, AnArcWithAnOffCircleFinishPointEndsWhereTheShortAxisPassesIt) {
     // The maker's example: centre (-200, 500), finish (-702, 299), octant 4; the finish is 2 pulses off the circle.
     Bench b;
     b.start();
@@ -187,7 +187,7 @@ TEST(ChipPath, AFinishPointBesideTheCircleEndsWhereTheShortAxisPassesIt) {
     EXPECT_EQ(b.lp(X), -700);
 }
 
-TEST(ChipPath, DecelerationIsOnlyWhereItIsEnabled) {
+TEST(ChipPath, DeceleratesOnlyIfEnabled) {
     for (const bool enabled : {false, true}) {
         Bench b;
         EdgeLog log;
@@ -209,7 +209,7 @@ TEST(ChipPath, DecelerationIsOnlyWhereItIsEnabled) {
     }
 }
 
-TEST(ChipPath, WithConstantVectorSpeedDiagonalPulsesAreRarerByTheRootOfTwo) {
+TEST(ChipPath, ConstantVectorSpeedLengthensDiagonalPulsePeriodsByRootTwo) {
     Bench b;
     EdgeLog log;
     b.start();
@@ -240,7 +240,7 @@ TEST(ChipPath, AStopOfAnyAxisStopsTheWholeChain) {
     EXPECT_EQ(b.read(0), 0u);
 }
 
-TEST(ChipPath, ALimitOfAnAxisThatIsLedStopsTheLine) {
+TEST(ChipPath, ALimitOfASlaveAxisStopsTheLine) {
     Bench b;
     b.start();
     b.speeds(X | Y, 80'000, 1000, 1000);

@@ -38,7 +38,7 @@ constexpr std::array<Word, 4> figure = {{{0x0000, 0x2BFF, 0xFFD4, 0x0000},
                                          {0x1FDB, 0x0000, 0x00FF, 0xFC00},
                                          {0x4000, 0x7FF5, 0x0000, 0x0AFF}}};
 
-TEST(ChipPattern, TheMakersFigureIsClosedAndEndsWithItsEndCode) {
+TEST(ChipPattern, TheDocumentedPatternIsClosedAndEndsWithItsEndCode) {
     Patterns b;
     for (int i = 0; i < 3; ++i) b.stack(figure[static_cast<std::size_t>(i)]);
     EXPECT_EQ(b.stacked(), 3u);
@@ -163,7 +163,7 @@ TEST(ChipPattern, LateDataEndTheDriveWithNothingLatched) {
     EXPECT_EQ(b.count(0), 16);
 }
 
-TEST(ChipPattern, AStopKeepsTheRestOfTheWord) {
+TEST(ChipPattern, AStopKeepsTheRemainingBitsOfTheWord) {
     Patterns b;
     b.stack({0xFFFF, 0, 0x5555, 0xAAAA});
     b.stack({0xC003, 0xC000});
@@ -221,7 +221,7 @@ TEST(ChipPattern, ALimitInTheDirectionOfTheNextStepStops) {
     EXPECT_TRUE(field("RR1", "LMTM").test(b.status(X, 1)));
 }
 
-TEST(ChipPattern, WithConstantVectorSpeedTheStepsOfTwoAxesAreRarer) {
+TEST(ChipPattern, ConstantVectorSpeedLengthensPulsePeriodsOfTwoAxes) {
     Patterns b(0x0104);
     b.command(0, cmd::BP_DISABLE);
     b.data(Y, cmd::R, 28'000);
@@ -256,7 +256,7 @@ TEST(ChipPattern, ItDeceleratesFromTheManualPoint) {
     EXPECT_TRUE(field("RR1", "DSND").test(b.status(X, 1)));
 }
 
-TEST(ChipPattern, NothingIsQueuedBehindItAndItBehindNothing) {
+TEST(ChipPattern, IsNeitherQueuedNorFollowedByAQueuedSegment) {
     Patterns b;
     b.stack({0xFFFF});
     b.go();

@@ -64,7 +64,7 @@ void expect_equal_looks(std::uint64_t seed, int drive) {
     }
 }
 
-TEST(ChipRamps, AQueryAndAListenerGetTheSameValues) {
+TEST(ChipRamps, QueriesAndListenersGetTheSameValues) {
     const std::uint64_t seed = 7;
     std::cout << "seed " << seed << std::endl;
     for (int drive = 0; drive < 400 && !testing::Test::HasFatalFailure(); ++drive) expect_equal_looks(seed, drive);

@@ -7,7 +7,7 @@
 namespace motionrack::mcx314::outside {
 namespace {
 
-TEST(ChipReadings, ADriveSlowerThanSvGoesAtVOrAtSv) {
+TEST(ChipReadings, ADriveSlowerThanSvRunsAtVOrAtSv) {
     for (const SlowDrive reading : {SlowDrive::at_v, SlowDrive::at_sv})
         for (const Variant variant : {Variant::mcx314, Variant::mcx314as}) {
             const int slow = reading == SlowDrive::at_v ? 50 : 100;
@@ -30,7 +30,7 @@ TEST(ChipReadings, ADriveSlowerThanSvGoesAtVOrAtSv) {
         }
 }
 
-TEST(ChipReadings, ASoftwareLimitBeginsBeyondCompPlusOrAtIt) {
+TEST(ChipReadings, ASoftwareLimitActsBeyondCompPlusOrAtIt) {
     for (const SoftwareLimit reading : {SoftwareLimit::beyond, SoftwareLimit::at}) {
         Bench b({Variant::mcx314, SlowDrive::at_v, reading});
         b.start();

@@ -65,7 +65,7 @@ TEST(ChipSteps, ACommandWhileAStepIsUnderWayIsIgnored) {
     EXPECT_EQ(b.kernel.conditions().size(), 2u) << "nothing waits for a step";
 }
 
-TEST(ChipSteps, TheWireAsksWhenItIsLowForFourClocks) {
+TEST(ChipSteps, AStepIsRequestedWhenTheWireIsLowForFourClocks) {
     Steps b(by_wire);
     b.pull(1);
     b.advance(tick * 100);
@@ -140,7 +140,7 @@ class ByHand : public Bench {
     }
 };
 
-TEST(ChipByHand, ContinuousWhileLow) {
+TEST(ChipExternalDrive, DrivesWhileTheInputIsLow) {
     ByHand b(1);
     b.wire("xexpp", 0);
     b.advance(tick * 2 + tick * 2 + tick * 99);
@@ -158,7 +158,7 @@ TEST(ChipByHand, ContinuousWhileLow) {
     EXPECT_EQ(b.count(1), 0) << "Y is not switched to it";
 }
 
-TEST(ChipByHand, ItDeceleratesWhereItAccelerated) {
+TEST(ChipExternalDrive, AContinuousDriveDeceleratesIfItAccelerated) {
     ByHand b(1);
     b.data(X, cmd::SV, 200);
     b.wire("xexpm", 0);
@@ -171,7 +171,7 @@ TEST(ChipByHand, ItDeceleratesWhereItAccelerated) {
     EXPECT_EQ(b.status(X, 1) & 0xFF00u, 0u);
 }
 
-TEST(ChipByHand, PulsesAtTheFallingEdge) {
+TEST(ChipExternalDrive, AFixedDriveStartsAtTheFallingEdge) {
     ByHand b(2);
     b.wire("xexpm", 0);
     b.advance(tick);
@@ -193,7 +193,7 @@ TEST(ChipByHand, PulsesAtTheFallingEdge) {
     EXPECT_TRUE(b.kernel.conditions().empty());
 }
 
-TEST(ChipByHand, AnInputThatIsLowAlreadyMustGoHighFirst) {
+TEST(ChipExternalDrive, AnInputThatIsAlreadyLowMustGoHighFirst) {
     ByHand b(0);
     b.wire("xexpp", 0);
     b.mode(X, 3, 1 << 3);
@@ -209,7 +209,7 @@ TEST(ChipByHand, AnInputThatIsLowAlreadyMustGoHighFirst) {
     EXPECT_FALSE(b.read(0) & X) << "switched off it stops like at High";
 }
 
-TEST(ChipByHand, ALimitEndsItAndItDoesNotBeginAgain) {
+TEST(ChipExternalDrive, ALimitEndsTheDriveAndItDoesNotRestart) {
     ByHand b(1);
     b.wire("xexpp", 0);
     b.advance(tick * 50);
@@ -223,7 +223,7 @@ TEST(ChipByHand, ALimitEndsItAndItDoesNotBeginAgain) {
     EXPECT_TRUE(field("RR1", "LMTP").test(b.status(X, 1)));
 }
 
-TEST(ChipByHand, AHeldAxisDoesNotMove) {
+TEST(ChipExternalDrive, AHeldAxisDoesNotMove) {
     ByHand b(2);
     b.command(X, cmd::HOLD);
     b.wire("xexpp", 0);
@@ -235,7 +235,7 @@ TEST(ChipByHand, AHeldAxisDoesNotMove) {
 
 // ---- 8-bit bus
 
-TEST(ChipBytes, TheLowByteOfWr0CarriesOut) {
+TEST(ChipBytes, TheLowByteOfWr0ExecutesTheCommand) {
     Bench b;
     ByteBus bus(b.chip);
     b.start();
@@ -290,7 +290,7 @@ TEST(ChipBytes, AByteOfRr3ClearsItsOwnFlags) {
     EXPECT_FALSE(b.interrupt());
 }
 
-TEST(ChipBytes, ALibrarysWordsDoTheSameAsOnTheWideBus) {
+TEST(ChipBytes, LibraryCallsHaveTheSameEffectAsOnThe16BitBus) {
     Bench wide, narrow;
     ByteBus bus(narrow.chip);
     sim::RegisterDevice* const devices[] = {&wide.chip, &bus};

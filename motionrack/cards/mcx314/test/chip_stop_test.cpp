@@ -18,7 +18,7 @@ class Fast : public Bench {
     }
 };
 
-TEST(ChipStops, EachStopInputHasItsLevelItsStyleAndItsBit) {
+TEST(ChipStops, EachStopInputHasItsActiveLevelStopKindAndStatusBit) {
     for (int n = 0; n < 4; ++n)
         for (const int active : {0, 1})
             for (const bool ramp : {true, false}) {
@@ -40,7 +40,7 @@ TEST(ChipStops, EachStopInputHasItsLevelItsStyleAndItsBit) {
             }
 }
 
-TEST(ChipStops, TheAlarmStopsAtOnceAtItsLevelWhereItIsEnabled) {
+TEST(ChipStops, TheAlarmStopsAtOnceAtItsActiveLevelIfEnabled) {
     for (const int active : {0, 1}) {
         Fast b;
         b.wire("xalarm", 1 - active);
@@ -78,7 +78,7 @@ TEST(ChipStops, ALimitStopsAtOnceOrDecelerating) {
     }
 }
 
-TEST(ChipStops, EveryCauseOfADriveIsLatchedAtItsEndAndClearedByTheNext) {
+TEST(ChipStops, EveryStopCauseIsLatchedAtTheEndOfADriveAndClearedByTheNext) {
     Fast b;
     b.mode(X, 1, 0x0022);  // IN0, IN2, active Low
     b.wire("xin0", 0);

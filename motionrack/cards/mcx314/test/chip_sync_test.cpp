@@ -48,7 +48,7 @@ TEST(ChipSync, AnAxisThatReachesCompPlusStartsAnotherInTheSameTick) {
     EXPECT_EQ(b.lp(Y), 30);
 }
 
-TEST(ChipSync, AConditionSavesTheCounterOfThatVeryPulse) {
+TEST(ChipSync, AConditionSavesTheCounterAtItsPulse) {
     As b;
     b.speeds(X, 16'000, 8000, 8000);
     b.data(X, cmd::COMP_PLUS, 12'345);
@@ -60,7 +60,7 @@ TEST(ChipSync, AConditionSavesTheCounterOfThatVeryPulse) {
     EXPECT_EQ(b.lp(X), 20'000);
 }
 
-TEST(ChipSync, Input3TakesThePositionOfAllAxesAtOnce) {
+TEST(ChipSync, Input3SavesThePositionOfAllAxesAtTheSameInstant) {
     As b;
     b.speeds(X, 16'000, 8000, 8000);
     b.speeds(Y, 16'000, 4000, 4000);
@@ -82,7 +82,7 @@ TEST(ChipSync, Input3TakesThePositionOfAllAxesAtOnce) {
     EXPECT_EQ(b.status(X, 3), 0u);
 }
 
-TEST(ChipSync, AnEndStartsTheNextAxisAndItsStartTheOneAfter) {
+TEST(ChipSync, TheEndOfADriveStartsTheNextAxisAndItsStartTheOneAfter) {
     As b;
     b.speeds(X | Y | Z, 16'000, 800, 800);
     b.data(X | Y | Z, cmd::P, 10);

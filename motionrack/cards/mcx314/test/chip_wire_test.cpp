@@ -53,7 +53,7 @@ TEST(ChipWires, OnePulseModeHasADirectionAndLevelsCanBeInverted) {
     EXPECT_EQ(b.level("ypm"), 0);
 }
 
-TEST(ChipWires, AWireThatIsOnlyLookedAtShowsTheSameLevelsAtNoCost) {
+TEST(ChipWires, AWireWithoutAListenerHasTheSameLevelsWithoutEvents) {
     Bench seen, followed;
     Follower follower(followed.kernel);
     for (const char* wire : {"c.xpp", "c.ypp", "c.ypm"}) follower.listen(wire);
@@ -259,7 +259,7 @@ class Watcher final : public sim::PositionListener {
     int slot_;
 };
 
-TEST(ChipMotion, AStartIntoALimitIsSeenWhateverIsWatchedInItsFirstTicks) {
+TEST(ChipMotion, ALimitAtTheStartIsDetectedWhateverIsWatchedInItsFirstTicks) {
     for (int ticks = 0; ticks < 7; ++ticks) {
         Bench b;
         Watcher watcher(b.chip.pulses(1));
@@ -277,7 +277,7 @@ TEST(ChipMotion, AStartIntoALimitIsSeenWhateverIsWatchedInItsFirstTicks) {
     }
 }
 
-TEST(ChipMotion, AWatchedCountIsReportedAtItsVeryTickAndOnce) {
+TEST(ChipMotion, AWatchedCountIsReportedOnceAtItsTick) {
     Bench b;
     EdgeLog log;
     Watcher one(b.chip.pulses(0)), two(b.chip.pulses(0));
@@ -299,7 +299,7 @@ TEST(ChipMotion, AWatchedCountIsReportedAtItsVeryTickAndOnce) {
     EXPECT_EQ(two.crossings[0], (std::pair<std::int64_t, std::int64_t>{log.list[206].tick, -7}));
 }
 
-TEST(ChipMotion, AWatchThatIsLeftAlreadyIsReportedAtTheNextInstant) {
+TEST(ChipMotion, AWatchedRangeThatIsAlreadyLeftIsReportedAtTheNextInstant) {
     Bench b;
     Watcher watcher(b.chip.pulses(2));
     b.start();

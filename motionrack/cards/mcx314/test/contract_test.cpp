@@ -36,7 +36,7 @@ class Contract : public testing::Test {
     std::optional<Driver> driver_;
 };
 
-TEST_F(Contract, AfterTheResetEverythingStandsAtZero) {
+TEST_F(Contract, AfterAResetAllCountersAreZero) {
     EXPECT_EQ(card().status().word & 0x01FFu, 0u);
     for (int i = 0; i < 4; ++i) {
         EXPECT_EQ(card().ReadLPS(i), 0) << i;
@@ -48,7 +48,7 @@ TEST_F(Contract, AfterTheResetEverythingStandsAtZero) {
     EXPECT_EQ(card().error_text(), "");
 }
 
-TEST_F(Contract, CountersTakeEveryValueAndKeepAxesApart) {
+TEST_F(Contract, CountersAcceptEveryValueForEachAxisSeparately) {
     for (const std::int64_t value : {0LL, 1LL, -1LL, 65'535LL, 65'536LL, 2'147'483'647LL, -2'147'483'648LL}) {
         for (int i = 0; i < 4; ++i) {
             done(card().LPS(1u << i, value));
@@ -99,7 +99,7 @@ TEST_F(Contract, ManualAndAsymmetricDecelerationMakeExactlyTheirPulses) {
     EXPECT_EQ(card().ReadLPS(0), 0);
 }
 
-TEST_F(Contract, PulseAndDriveFixedTakeEachAxisItsOwnWay) {
+TEST_F(Contract, PulseAndDriveFixedMoveEachAxisByItsOwnDistance) {
     done(card().SetSV(xyzu, 10));
     done(card().SetV(xyzu, 500));
     done(card().SetA(xyzu, 400));
@@ -181,7 +181,7 @@ TEST_F(Contract, FinishPointsMayBeSetBefore) {
     EXPECT_EQ(card().ReadLPS(1), 0);
 }
 
-TEST_F(Contract, QuartersAndFullCirclesEndWhereTheyShould) {
+TEST_F(Contract, QuartersAndFullCirclesEndAtTheirFinishPoints) {
     struct Case {
         bool clockwise, trapezoid;
         FourAxes finish, centre;
@@ -205,7 +205,7 @@ TEST_F(Contract, QuartersAndFullCirclesEndWhereTheyShould) {
 }
 
 /// The maker's sample: straight lines and quarter circles of a rounded square, back to its start.
-TEST_F(Contract, TheMakersContourIsClosed) {
+TEST_F(Contract, TheDocumentedContourIsClosed) {
     for (const std::int64_t acceleration : {0, 400}) {
         done(card().LPS(xyzu, 0));
         done(card().ContStart({20, 300, acceleration, 0}));
@@ -227,7 +227,7 @@ TEST_F(Contract, TheMakersContourIsClosed) {
 }
 
 /// A sequence of words: those stacked ahead and those that arrive while it runs form one path.
-TEST_F(Contract, ABitPatternOfTwoAxesGoesWhereItsBitsSay) {
+TEST_F(Contract, ABitPatternOfTwoAxesEndsAtTheSumOfItsBits) {
     done(card().BP2D({0, 20, 0, 0}, 0x9));
     const BPWORD word{{0xFFFF, 0x00F0}, {0x0000, 0xFF00}};  // X 16 times +; U 4 times +, 8 times -
     for (int i = 0; i < 3; ++i) done(card().BPStack(word));
@@ -289,7 +289,7 @@ TEST_F(Contract, SpeedAndTargetChangeWhileDriving) {
     EXPECT_FALSE(card().change_speed(axis_x, 100));
 }
 
-TEST_F(Contract, ADrivingAxisRefusesAnotherDrive) {
+TEST_F(Contract, ADrivingAxisRejectsAnotherDrive) {
     done(card().TCurve_C(axis_x, 10, 500, 400));
     for (const Result<void>& refused :
          {card().TCurve_F(axis_x | axis_y, 10, 500, 400, 100), card().SetRange(xyzu, 80'000),
@@ -304,7 +304,7 @@ TEST_F(Contract, ADrivingAxisRefusesAnotherDrive) {
     EXPECT_EQ(card().ReadLPS(1), 0);
 }
 
-TEST_F(Contract, SoftwareLimitsStopAndSayHowToContinue) {
+TEST_F(Contract, SoftwareLimitsStopAndReportTheRemedy) {
     done(card().SetCompP(axis_x, 1'000));
     done(card().SetCompM(axis_x, -1'000));
     done(card().SLMTP(1, axis_x));

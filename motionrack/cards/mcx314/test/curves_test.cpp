@@ -107,7 +107,7 @@ TEST(Curves, MakeThePulsesOfTheChipWhateverTheParameters) {
     }));
 }
 
-TEST(Curves, TheBestDecelerationPointIsTheLatestThatEndsSlowly) {
+TEST(Curves, TheBestDecelerationPointIsTheLatestThatEndsAtTheInitialSpeed) {
     EXPECT_TRUE(rc::check([] {
         CurveData data;
         data.R = *rc::gen::inRange<std::int64_t>(16'000, 8'000'000);
@@ -129,7 +129,7 @@ TEST(Curves, TheBestDecelerationPointIsTheLatestThatEndsSlowly) {
     }));
 }
 
-TEST(Curves, TheBestOffsetIsTheLeastThatEndsSlowly) {
+TEST(Curves, TheBestOffsetIsTheMinimumThatEndsAtTheInitialSpeed) {
     EXPECT_TRUE(rc::check([] {
         CurveData data;
         data.R = *rc::gen::inRange<std::int64_t>(16'000, 8'000'000);
@@ -164,7 +164,7 @@ TEST(Curves, ASlowStopIsPlannedForAContinuousDrive) {
 
 // ---- published numbers
 
-TEST(Curves, TheMakersTrapezoidTakesTheTimesOfItsFormulas) {
+TEST(Curves, TheDocumentedTrapezoidHasTheTimesOfItsFormulas) {
     // R = 800,000 (M = 10), A = D = 200: 250,000 pulses/s2 from 1,000 to 40,000 pulses/s: 0.156 s and 3,198 pulses each
     // way.
     CurveData data{800'000, 100, 4'000, 200, 200, 65'535, 0};
@@ -181,7 +181,7 @@ TEST(Curves, TheMakersTrapezoidTakesTheTimesOfItsFormulas) {
     EXPECT_NEAR(to_seconds(plan_drive(data)->time()), 1.1521, 0.002);
 }
 
-TEST(Curves, TheMakersSCurveStaysBelowItsGreatestAcceleration) {
+TEST(Curves, TheDocumentedSCurveStaysBelowItsMaximumAcceleration) {
     // K = 1,010, M = 10: jerk 618,812; SV 1,000, V 40,000 pulses/s: peak 155,350 pulses/s2, 0.50209 s, 10,292.9 pulses.
     CurveData data{800'000, 100, 4'000, 200, 200, 1'010, 0};
     data.s_curve = true;

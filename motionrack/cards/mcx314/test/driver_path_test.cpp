@@ -39,7 +39,7 @@ TEST(DriverPaths, AnAsymmetricLineEndsAtItsInitialSpeed) {
     EXPECT_GT(last_rate(rig.edges[0], 100), 400);
 }
 
-TEST(DriverPaths, AChainKeepsItsSpeedOverTheJointsAndDeceleratesInItsLastSegment) {
+TEST(DriverPaths, AChainKeepsItsSpeedAtJunctionsAndDeceleratesInItsLastSegment) {
     DriverRig rig(true);
     Driver& d = rig.driver;
     done(d.SetMultiple(xyzu, 10));
@@ -61,7 +61,7 @@ TEST(DriverPaths, AChainKeepsItsSpeedOverTheJointsAndDeceleratesInItsLastSegment
     EXPECT_NEAR(last_rate(rig.edges[1], 1), 200, 60);
 }
 
-TEST(DriverPaths, AChainsLastSegmentThatIsTooShortLowersTheSpeedBefore) {
+TEST(DriverPaths, ATooShortLastSegmentOfAChainLowersTheSpeedOfTheSegmentsBefore) {
     DriverRig rig(true);
     Driver& d = rig.driver;
     done(d.SetMultiple(xyzu, 10));
@@ -128,7 +128,7 @@ TEST(DriverPaths, ALineEndsAnOpenChainOrPattern) {
     done(d.stop(axis_y, StopKind::quick));
 }
 
-TEST(DriverPaths, SpeedsThatAreNotKnownAreNotReported) {
+TEST(DriverPaths, UnknownSpeedsAreNotReported) {
     DriverRig rig;
     Driver& d = rig.driver;
     done(d.SetMultiple(xyzu, 10));
@@ -179,7 +179,7 @@ TEST(DriverPaths, SpeedsOnAnArcAreThoseOfThePulses) {
     }
 }
 
-TEST(DriverPaths, SpeedsInAChainAreThoseOfTheSegmentThatRuns) {
+TEST(DriverPaths, SpeedsInAChainAreThoseOfTheActiveSegment) {
     DriverRig rig;
     Driver& d = rig.driver;
     done(d.SetMultiple(xyzu, 10));

@@ -36,7 +36,7 @@ class StillClock final : public Interrupt {
 };
 
 /// A card that is set up; later writes are errors.
-class Refused : public testing::Test {
+class DriverRejects : public testing::Test {
   protected:
     void set_up() {
         EXPECT_TRUE(driver_.SetMultiple(axis_x | axis_y | axis_z, 10));
@@ -95,7 +95,7 @@ const std::vector<Ranged>& ranged() {
     return table;
 }
 
-TEST_F(Refused, NumbersOutsideTheirRangeWithTheRangeInTheSentence) {
+TEST_F(DriverRejects, NumbersOutsideTheirRangeWithTheRangeInTheSentence) {
     set_up();
     forbid_writing();
     for (const Ranged& one : ranged()) {
@@ -109,13 +109,13 @@ TEST_F(Refused, NumbersOutsideTheirRangeWithTheRangeInTheSentence) {
     }
 }
 
-TEST_F(Refused, EndsOfTheRangesAreTaken) {
+TEST_F(DriverRejects, EndsOfTheRangesAreAccepted) {
     for (const Ranged& one : ranged())
         for (const std::int64_t right : {one.min, one.max})
             EXPECT_TRUE(one.call(driver_, xyzu, right)) << one.name << ' ' << right;
 }
 
-TEST_F(Refused, AxisMasksThatNameNoAxes) {
+TEST_F(DriverRejects, AxisMasksThatNameNoAxes) {
     set_up();
     forbid_writing();
     for (const unsigned axes : {0u, 16u, 17u, 0xFFFFFFFFu}) {
@@ -130,7 +130,7 @@ TEST_F(Refused, AxisMasksThatNameNoAxes) {
     }
 }
 
-TEST_F(Refused, AxesThatDoNotExist) {
+TEST_F(DriverRejects, AxesThatDoNotExist) {
     set_up();
     forbid_writing();
     for (const int axis : {-1, 4, 32, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
@@ -161,7 +161,7 @@ struct Whole {
     const char* part;
 };
 
-TEST_F(Refused, CurvesWithOneWrongNumber) {
+TEST_F(DriverRejects, CurvesWithOneWrongNumber) {
     set_up();
     forbid_writing();
     const std::vector<Whole> calls = {
@@ -180,7 +180,7 @@ TEST_F(Refused, CurvesWithOneWrongNumber) {
     for (const Whole& one : calls) expect_refused(one.call(driver_), one.part);
 }
 
-TEST_F(Refused, LinesAndArcsThatCannotBe) {
+TEST_F(DriverRejects, ImpossibleLinesAndArcs) {
     set_up();
     forbid_writing();
     const std::vector<Whole> calls = {
@@ -254,7 +254,7 @@ TEST_F(Refused, LinesAndArcsThatCannotBe) {
     }
 }
 
-TEST_F(Refused, SwitchesOtherThanTheirPositions) {
+TEST_F(DriverRejects, SwitchesOtherThanTheirPositions) {
     set_up();
     forbid_writing();
     using Call = Result<void> (Driver::*)(int, unsigned);
@@ -269,7 +269,7 @@ TEST_F(Refused, SwitchesOtherThanTheirPositions) {
     expect_refused(driver_.EnableInterrupt(axis_x, 0x0100), "are not bits 0 to 7");
 }
 
-TEST_F(Refused, WhatADrivingAxisCannotDo) {
+TEST_F(DriverRejects, CommandsThatNeedAnAxisAtStandstill) {
     set_up();
     EXPECT_TRUE(driver_.ContStart({0, 100, 0, 0}));
     EXPECT_TRUE(driver_.SetV(axis_x, 1));
@@ -305,7 +305,7 @@ TEST_F(Refused, WhatADrivingAxisCannotDo) {
     for (const auto& call : calls) expect_refused(call(driver_), "X is driving");
 }
 
-TEST_F(Refused, AnInterpolationBesideAnother) {
+TEST_F(DriverRejects, ASecondInterpolationAtATime) {
     EXPECT_TRUE(driver_.SetMultiple(xyzu, 10));
     EXPECT_TRUE(driver_.ContStart({0, 100, 0, 0}));
     forbid_writing(0x0103);  // X and Y are interpolated
@@ -315,7 +315,7 @@ TEST_F(Refused, AnInterpolationBesideAnother) {
     expect_refused(driver_.ContLine(0xC, {0, 0, 9, 9}), "an interpolation runs");
 }
 
-TEST_F(Refused, ChangesOfAnAxisThatStands) {
+TEST_F(DriverRejects, SpeedAndTargetChangesAtStandstill) {
     set_up();
     forbid_writing();
     expect_refused(driver_.change_speed(axis_x, 100), "X stands");
@@ -323,14 +323,14 @@ TEST_F(Refused, ChangesOfAnAxisThatStands) {
     expect_refused(driver_.change_speed(axis_x, 0), "1 to 8000");
 }
 
-TEST_F(Refused, ContinuousInterpolationAboveItsSpeed) {
+TEST_F(DriverRejects, ContinuousInterpolationAboveItsSpeed) {
     EXPECT_TRUE(driver_.SetMultiple(xyzu, 500));
     EXPECT_TRUE(driver_.ContStart({1, 4'001, 10, 0}));
     forbid_writing();
     expect_refused(driver_.ContLine(0x3, {1, 1}), "at most 2000000");
 }
 
-TEST_F(Refused, RealValuesThatTheChipDoesNotReach) {
+TEST_F(DriverRejects, RealValuesThatTheChipDoesNotReach) {
     RealAxis axis(driver_, 0, {200});
     forbid_writing();
     expect_refused(axis.move(1), "Call set first");
@@ -348,7 +348,7 @@ TEST_F(Refused, RealValuesThatTheChipDoesNotReach) {
 }
 
 /// Arbitrary arguments: a call is executed, or refused without a write.
-TEST_F(Refused, WhateverTheArgumentsARefusalWritesNothing) {
+TEST_F(DriverRejects, RejectedCallsWriteNothingWhateverTheArguments) {
     set_up();
     int writes = 0;
     ON_CALL(port_, write(_, _)).WillByDefault([&writes](std::uint32_t, std::uint16_t) { ++writes; });

@@ -69,7 +69,7 @@ TEST(DriverMessages, ReportsLimitsAndMotionSeparately) {
 
 // ---- changes while driving
 
-TEST(DriverFlight, ASpeedIsNotChangedWhereTheChipWouldNotTakeIt) {
+TEST(DriverFlight, RejectsASpeedChangeThatTheChipWouldIgnore) {
     DriverRig rig;
     Driver& d = rig.driver;
     done(d.SetMultiple(xyzu, 10));
@@ -107,7 +107,7 @@ TEST(DriverFlight, ASpeedIsNotChangedWhereTheChipWouldNotTakeIt) {
     EXPECT_EQ(d.ReadLPS(1), 4'000);
 }
 
-TEST(DriverFlight, TheLeastPossibleTargetIsReportedAndTaken) {
+TEST(DriverFlight, TheNearestPossibleTargetIsReportedAndAccepted) {
     for (const bool manual : {false, true}) {
         DriverRig rig(true);
         Driver& d = rig.driver;
@@ -146,7 +146,7 @@ TEST(DriverFlight, AWaitMayBeAsLongAsTheDrive) {
     EXPECT_EQ(d.ReadLPS(0), 6'000);
 }
 
-TEST(DriverFlight, TheSpeedOfALedAxisIsThatOfItsLeader) {
+TEST(DriverFlight, TheSpeedOfASlaveAxisFollowsItsMainAxis) {
     DriverRig rig;
     Driver& d = rig.driver;
     done(d.SetMultiple(xyzu, 10));

@@ -55,20 +55,20 @@ PortAccess w(std::uint32_t offset, unsigned value) {
     return {'w', offset, static_cast<std::uint16_t>(value)};
 }
 
-class Traffic : public testing::Test {
+class DriverTraffic : public testing::Test {
   protected:
     Notebook port_;
     Driver driver_{port_, port_};
 };
 
-TEST_F(Traffic, DataGoesHighWordLowWordCommand) {
+TEST_F(DriverTraffic, DataGoesHighWordLowWordCommand) {
     EXPECT_TRUE(driver_.Pulse(axis_x | axis_u, -0x1234567));
     EXPECT_EQ(port_.take(), (std::vector<PortAccess>{w(reg::WR7, 0x0123), w(reg::WR6, 0x4567), w0(9, cmd::P)}));
     EXPECT_TRUE(driver_.LPS(axis_y, -2));
     EXPECT_EQ(port_.take(), (std::vector<PortAccess>{w(reg::WR7, 0xFFFF), w(reg::WR6, 0xFFFE), w0(2, cmd::LP)}));
 }
 
-TEST_F(Traffic, MultiplesAreTheSmallestThatReach) {
+TEST_F(DriverTraffic, ChoosesTheSmallestSufficientMultiple) {
     struct Case {
         std::int64_t speed, range;
     };
@@ -89,7 +89,7 @@ struct Switch {
     std::uint16_t mask;
 };
 
-TEST_F(Traffic, EachSignalFunctionMovesItsOwnBitAndKeepsTheOthers) {
+TEST_F(DriverTraffic, EachSignalFunctionChangesItsOwnBitOnly) {
     const std::vector<Switch> switches = {{"HLMTP", &Driver::HLMTP, 0x0008},
                                           {"HLMTM", &Driver::HLMTM, 0x0010},
                                           {"HLMTSig", &Driver::HLMTSig, 0x0004},
@@ -123,7 +123,7 @@ TEST_F(Traffic, EachSignalFunctionMovesItsOwnBitAndKeepsTheOthers) {
     EXPECT_EQ(driver_.mode2(0), 0xFA3F);
 }
 
-TEST_F(Traffic, StopInputsInterruptsAndOutputs) {
+TEST_F(DriverTraffic, StopInputsInterruptsAndOutputs) {
     EXPECT_TRUE(driver_.SetStopInput(axis_x, 0, StopInput::at_low));
     EXPECT_EQ(driver_.mode1(0), 0x0002);
     EXPECT_TRUE(driver_.SetStopInput(axis_x, 2, StopInput::at_high));
@@ -145,7 +145,7 @@ TEST_F(Traffic, StopInputsInterruptsAndOutputs) {
     EXPECT_EQ(port_.take(), (std::vector<PortAccess>{w(reg::WR4, 0x4004), w(reg::WR4, 0x4014), w(reg::WR4, 0x0014)}));
 }
 
-TEST_F(Traffic, InputsAreDecodedForEachAxis) {
+TEST_F(DriverTraffic, InputsAreDecodedForEachAxis) {
     port_.levels[4] = 0x5A00;  // Y: IN1, IN3, EXPP, INPOS
     port_.levels[5] = 0x00A5;  // Z: IN0, IN2, EXPM, ALARM
     const InputLevels y = driver_.inputs(1), z = driver_.inputs(2), u = driver_.inputs(3);
@@ -156,7 +156,7 @@ TEST_F(Traffic, InputsAreDecodedForEachAxis) {
     EXPECT_EQ(u.in, (std::array<bool, 4>{}));
 }
 
-TEST_F(Traffic, DrivesOfTwoDirectionsAreHeldAndFreedTogether) {
+TEST_F(DriverTraffic, DrivesOfTwoDirectionsAreHeldAndReleasedTogether) {
     EXPECT_TRUE(driver_.SetMultiple(xyzu, 1));
     for (const auto set : {&Driver::SetSV, &Driver::SetV, &Driver::SetA}) EXPECT_TRUE((driver_.*set)(xyzu, 5));
     EXPECT_TRUE(driver_.Pulse(axis_x | axis_z, 9));
@@ -168,7 +168,7 @@ TEST_F(Traffic, DrivesOfTwoDirectionsAreHeldAndFreedTogether) {
                                              w0(7, cmd::START)}));
 }
 
-TEST_F(Traffic, ConstantVectorSpeedDoesNotChangeTheRangeOfALaterSingleAxisDrive) {
+TEST_F(DriverTraffic, ConstantVectorSpeedDoesNotChangeTheRangeOfALaterSingleAxisDrive) {
     EXPECT_TRUE(driver_.SetRange(4'000'000));
     EXPECT_TRUE(driver_.SetVectorSpeed(2));
     port_.take();
@@ -183,7 +183,7 @@ TEST_F(Traffic, ConstantVectorSpeedDoesNotChangeTheRangeOfALaterSingleAxisDrive)
 }
 
 /// The order of the maker's sample: patterns on, data, stack, .., start, .., patterns off.
-TEST_F(Traffic, ABitPatternIsStackedStartedAndClosed) {
+TEST_F(DriverTraffic, ABitPatternIsStackedStartedAndClosed) {
     EXPECT_TRUE(driver_.SetMultiple(xyzu, 1));
     EXPECT_TRUE(driver_.BP2D({0, 100, 0, 0}, 0x6));
     EXPECT_EQ(driver_.written(1, cmd::V), 100);
@@ -224,7 +224,7 @@ TEST_F(Traffic, ABitPatternIsStackedStartedAndClosed) {
     EXPECT_FALSE(driver_.BPEnd());
 }
 
-TEST_F(Traffic, ThreeAxesOfAPatternUseAllItsRegisters) {
+TEST_F(DriverTraffic, ThreeAxesOfAPatternUseAllItsRegisters) {
     EXPECT_TRUE(driver_.SetMultiple(xyzu, 1));
     EXPECT_TRUE(driver_.BP3D({5, 100, 50, 40}, 0xD));
     EXPECT_EQ(driver_.mode3(0), field("WR3", "MANLD").mask);
@@ -244,7 +244,7 @@ TEST_F(Traffic, ThreeAxesOfAPatternUseAllItsRegisters) {
     EXPECT_TRUE(driver_.BPEnd());
 }
 
-TEST_F(Traffic, StepsByCommand) {
+TEST_F(DriverTraffic, StepsByCommand) {
     EXPECT_TRUE(driver_.SetStep(StepBy::command));
     EXPECT_TRUE(driver_.Step());
     EXPECT_EQ(port_.take(), (std::vector<PortAccess>{{'r', reg::RR0, 0}, w(reg::WR5, 0x1000), w0(0, cmd::STEP)}));
@@ -258,7 +258,7 @@ TEST_F(Traffic, StepsByCommand) {
 }
 
 /// Each wait ends: on a card that drives without end, with a stuck interrupt line, and with a sleeping one.
-TEST_F(Traffic, NoWaitIsEndless) {
+TEST_F(DriverTraffic, EveryWaitHasATimeout) {
     EXPECT_TRUE(driver_.SetMultiple(xyzu, 1));
     EXPECT_TRUE(driver_.ContStart({0, 100, 0, 0}));
     EXPECT_TRUE(driver_.ContLine(0x3, {10, 10}));

@@ -144,7 +144,7 @@ void expect_an_end(const Homing& homing) {
     }
 }
 
-TEST(HomingBySource, EndsAtHomeOrWithASentenceOnAnyMachine) {
+TEST(HomingBySource, EndsAtHomeOrReportsTheReasonOnAnyMachine) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_HOMINGS", 60);
     for (std::uint64_t i = 0; i < count && !HasFailure(); ++i) {
         SCOPED_TRACE(fmt::format("MOTIONRACK_SEED={}", first + i));

@@ -34,7 +34,7 @@ HomeReport homed_by(HomeRig& rig, decltype(&HomeType1) function, unsigned wr1 = 
     return done ? done->front() : HomeReport{};
 }
 
-TEST(HomingBySource, Type2GoesBackAtTheInitialSpeedAndForwardAtHalfOfIt) {
+TEST(HomingBySource, Type2ReversesAtTheInitialSpeedAndApproachesAtHalfOfIt) {
     HomeRig rig;
     rig.start();
     const HomeReport report = homed_by(rig, HomeType2);
@@ -43,7 +43,7 @@ TEST(HomingBySource, Type2GoesBackAtTheInitialSpeedAndForwardAtHalfOfIt) {
     EXPECT_NEAR(speed_in(report, "SLOW_WAIT"), 250, 2.5);
 }
 
-TEST(HomingBySource, Type3GoesToTheIndexAtTheInitialSpeed) {
+TEST(HomingBySource, Type3ApproachesTheIndexAtTheInitialSpeed) {
     HomeRig rig;
     rig.start();
     const HomeReport report = homed_by(rig, HomeType3);
@@ -51,7 +51,7 @@ TEST(HomingBySource, Type3GoesToTheIndexAtTheInitialSpeed) {
     EXPECT_NEAR(speed_in(report, "INDEX_WAIT"), 500, 5);
 }
 
-TEST(HomingBySource, Type4StopsAtTheIndexBeforeItGoesBackAndEndsAtTheOrigin) {
+TEST(HomingBySource, Type4StopsAtTheIndexBeforeItReversesAndEndsAtTheOrigin) {
     HomeRig rig;
     rig.start();
     const HomeReport report = homed_by(rig, HomeType4);
@@ -64,7 +64,7 @@ TEST(HomingBySource, Type4StopsAtTheIndexBeforeItGoesBackAndEndsAtTheOrigin) {
     EXPECT_EQ(rig.driver.ReadLPS(0), 0);
 }
 
-TEST(HomingBySource, Type4StopsAtTheIndexWhereverItBegins) {
+TEST(HomingBySource, Type4StopsAtTheIndexFromAnyStartPosition) {
     for (const double start : {20.0, 0.5, -7.5, -8.5}) {  // before the switch, on it, beyond the limit switch
         SCOPED_TRACE(start);
         HomeRig rig({RigAxis{.start_mm = start}});
@@ -76,7 +76,7 @@ TEST(HomingBySource, Type4StopsAtTheIndexWhereverItBegins) {
     }
 }
 
-TEST(HomingBySource, Type4TakesAnIndexAtWhichItStandsAlready) {
+TEST(HomingBySource, Type4AcceptsAnIndexThatIsAlreadyActive) {
     HomeRig rig({RigAxis{.wired_index = false}});
     rig.start();
     rig.hold_wire("c.xin2", 1);
@@ -102,7 +102,7 @@ TEST(HomingBySource, AnyInputMayBeTheOriginAtEitherLevel) {
     }
 }
 
-TEST(HomingBySource, AnOriginAtTheLimitIsHomeWhereItIsApproachedSlowly) {
+TEST(HomingBySource, AnOriginAtTheLimitIsHomeIfApproachedAtTheLatchSpeed) {
     for (const double above : {0.0, 0.2}) {  // decelerating takes 400 pulses, 0.6 mm
         for (const double start : {20.0, -8.0, -8.5}) {
             const RigAxis axis{.start_mm = start, .home_mm = -8 + above};
@@ -114,7 +114,7 @@ TEST(HomingBySource, AnOriginAtTheLimitIsHomeWhereItIsApproachedSlowly) {
     }
 }
 
-TEST(HomingBySource, ReportsAnOriginTooNearToTheLimitForDeceleration) {
+TEST(HomingBySource, ReportsAnOriginTooCloseToTheLimitForDeceleration) {
     for (const auto function : {&HomeType1, &HomeType3}) {
         HomeRig rig({RigAxis{.home_mm = -7.8}});
         rig.start();
@@ -128,7 +128,7 @@ TEST(HomingBySource, ReportsAnOriginTooNearToTheLimitForDeceleration) {
     }
 }
 
-TEST(HomingBySource, Type4EndsNowhereWithoutAnIndexBeforeTheLimit) {
+TEST(HomingBySource, Type4ReportsAMissingIndexAtTheLimit) {
     HomeRig rig({RigAxis{.home_mm = -7.8}});  // its next index is at -10 mm
     rig.start();
     const auto done = HomeType4(rig.driver, axis_x, origin_in0, 50, 1000, 100);
@@ -149,7 +149,7 @@ TEST(HomingBySource, TypesWithAnIndexKeepItAtIn2WhereAnotherInputIsEnabled) {
     EXPECT_TRUE(in2_alone.index_high);
 }
 
-TEST(HomingBySource, EachTypeRefusesAWordThatEnablesNoOrigin) {
+TEST(HomingBySource, EachTypeRejectsAWordThatEnablesNoOrigin) {
     HomeRig rig;
     rig.start();
     for (const auto function : {&HomeType1, &HomeType2, &HomeType3, &HomeType4}) {

@@ -46,7 +46,7 @@ TEST(HomingStops, StopIsAcceptedInEveryStateAndThePositionIsNotValid) {
     }
 }
 
-TEST(HomingStops, AfterTheEndAStopDoesNothing) {
+TEST(HomingStops, AStopAfterTheEndHasNoEffect) {
     HomeRig rig;
     rig.start();
     Home one(rig.driver, 0);
@@ -102,7 +102,7 @@ TEST(HomingStops, AnAxisThatNeverComesIntoPositionTimesOut) {
     EXPECT_THAT(done.error().message, HasSubstr("nINPOS"));
 }
 
-TEST(HomingStops, SomeoneElsesStopIsNotTakenForTheSwitch) {
+TEST(HomingStops, AStopOfAnotherCallerIsNotTakenForTheSwitch) {
     HomeRig rig;
     rig.start();
     Home one(rig.driver, 0);
@@ -114,7 +114,7 @@ TEST(HomingStops, SomeoneElsesStopIsNotTakenForTheSwitch) {
     EXPECT_THAT(one.report().sentence, HasSubstr("the drive of SEARCH_WAIT ended after"));
 }
 
-TEST(HomingStops, TheCallerWhoWaitsGivesUpAfterItsTime) {
+TEST(HomingStops, AWaitEndsAtItsTimeout) {
     HomeRig rig({RigAxis{.start_mm = 300}});
     rig.start();
     const Result<HomeReport> done = home(rig.driver, 0, rig_settings(2), whole_seconds(2));
@@ -140,7 +140,7 @@ TEST(HomingTogether, TwoAxesHomeAtOnceAndTakeNoLongerThanTheSlowerOne) {
     EXPECT_LT(rig.port.now(), y.report().took + milliseconds(3));
 }
 
-TEST(HomingTogether, WhenOneFailsTheOtherIsStopped) {
+TEST(HomingTogether, AFailureOfOneAxisStopsTheOther) {
     HomeRig rig({RigAxis{.start_mm = 200}, RigAxis{.wired_home = false}});
     rig.start();
     Home x(rig.driver, 0), y(rig.driver, 1);

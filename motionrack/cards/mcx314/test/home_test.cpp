@@ -25,7 +25,7 @@ std::int64_t switch_pulses(double start_mm) {
     return static_cast<std::int64_t>(640 * (1 - start_mm));
 }
 
-TEST(Homing, Type1SlowsDownAtTheSwitchAndHomeIsWhereItStands) {
+TEST(Homing, Type1DeceleratesAtTheSwitchAndHomeIsTheStopPosition) {
     HomeRig rig;
     rig.start();
     const Result<HomeReport> done = home(rig.driver, 0, rig_settings(1));
@@ -44,7 +44,7 @@ TEST(Homing, Type1SlowsDownAtTheSwitchAndHomeIsWhereItStands) {
     EXPECT_TRUE(done->homed);
 }
 
-TEST(Homing, Type2StandsExactlyOnTheSwitchsEdge) {
+TEST(Homing, Type2StopsExactlyAtTheEdgeOfTheSwitch) {
     HomeRig rig;
     rig.start();
     const Result<HomeReport> done = home(rig.driver, 0, rig_settings(2));
@@ -95,7 +95,7 @@ TEST(Homing, SetsBothCountersToTheHomePosition) {
     EXPECT_DOUBLE_EQ(rig.position(), 1.0);
 }
 
-TEST(Homing, TheModesAreAsBeforeAndTheSoftwareLimitsReturnWithAValidPosition) {
+TEST(Homing, RestoresModesAndEnablesSoftwareLimitsOnAValidPosition) {
     HomeRig rig;
     rig.start();
     rig.driver.WriteMode1(1, 0x8000);
@@ -112,7 +112,7 @@ TEST(Homing, TheModesAreAsBeforeAndTheSoftwareLimitsReturnWithAValidPosition) {
 class EachType : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Types, EachType, testing::Values(1, 2, 3, 4, 5));
 
-TEST_P(EachType, EndsAtTheSamePulseFromBesideOnAndAtTheLimit) {
+TEST_P(EachType, EndsAtTheSamePulseFromOffTheSwitchOnItAndAtTheLimit) {
     std::vector<double> ends;
     for (const double start : {20.0, 200.0, 1.5, 1.025, 1.0, 0.0, -1.0, -8.0, -8.5, 302.5}) {
         if (GetParam() == 4 && start == 1.0) continue;  // there its index is at the switch's edge
@@ -130,7 +130,7 @@ TEST_P(EachType, EndsAtTheSamePulseFromBesideOnAndAtTheLimit) {
     }
 }
 
-TEST_P(EachType, RepeatsToThePulse) {
+TEST_P(EachType, IsRepeatableToThePulse) {
     for (const Duration bounce : {Duration{0}, milliseconds(1), milliseconds(4)}) {
         RigAxis axis;
         axis.bounce = bounce;
@@ -213,7 +213,7 @@ TEST_P(EachType, ReportsASwitchThatDoesNotRelease) {
     EXPECT_THAT(done.error().message, HasSubstr("is active and was not released within 1,000 pulses"));
 }
 
-TEST(Homing, ReportsAnIndexThatIsNeverSeen) {
+TEST(Homing, ReportsAMissingIndex) {
     for (const int type : {3, 4}) {
         HomeRig rig({RigAxis{.wired_index = false}});
         rig.start();
@@ -226,7 +226,7 @@ TEST(Homing, ReportsAnIndexThatIsNeverSeen) {
     }
 }
 
-TEST(Homing, AcceptsNoIndexThatIsNotWhereItShouldBe) {
+TEST(Homing, RejectsAnIndexAtAnUnexpectedPosition) {
     for (const int type : {3, 4}) {
         HomeRig found({RigAxis{}});
         found.start();
@@ -268,7 +268,7 @@ struct CamRig : HomeRig {
     Cam cam;
 };
 
-TEST(Homing, BeyondAShortSwitchItTurnsAtTheLimitAndFindsTheSameEdge) {
+TEST(Homing, ReversesAtTheLimitBehindAShortSwitchAndFindsTheSameEdge) {
     CamRig before(-8000, -7000), beyond(3000, 4000);  // the axis is 7,000 above it, and 3,000 below it
     before.start(), beyond.start();
     for (CamRig* rig : {&before, &beyond}) {
@@ -279,7 +279,7 @@ TEST(Homing, BeyondAShortSwitchItTurnsAtTheLimitAndFindsTheSameEdge) {
     EXPECT_EQ(beyond.rotor(), 4000);
 }
 
-TEST(Homing, ASwitchThatIsShorterThanTheBrakingWayIsFoundOnTheWayBack) {
+TEST(Homing, ASwitchShorterThanTheStoppingDistanceIsFoundAfterReversing) {
     CamRig rig(-7060, -7000);  // 60 pulses wide, decelerating takes 400
     rig.start();
     const Result<HomeReport> done = home(rig.driver, 0, rig_settings(2));
@@ -288,7 +288,7 @@ TEST(Homing, ASwitchThatIsShorterThanTheBrakingWayIsFoundOnTheWayBack) {
     EXPECT_THAT(states_of(*done), HasSubstr("RETURN_WAIT BACK_WAIT"));
 }
 
-TEST(Homing, ReportsALimitAtWhichItMayNotTurn) {
+TEST(Homing, ReportsALimitAtWhichItMayNotReverse) {
     CamRig rig(3000, 4000);
     rig.start();
     rig.hold_wire("c.xlmtm", 0);
@@ -312,7 +312,7 @@ TEST(Homing, InTheOtherDirectionTheSameSwitchIsFoundByItsOtherLevel) {
     EXPECT_NEAR(rig.position(), 1.05, 1.01 / pulses_per_mm) << "where it is released";
 }
 
-TEST(Homing, RefusesWhatCannotBeDoneAndMovesNothing) {
+TEST(Homing, RejectsImpossibleSettingsAndMovesNothing) {
     HomeRig rig;
     rig.start();
     Home one(rig.driver, 0);
@@ -343,7 +343,7 @@ TEST(Homing, RefusesWhatCannotBeDoneAndMovesNothing) {
     EXPECT_FALSE(one.homed());
 }
 
-TEST(Homing, AnOldEmergencyStopDoesNotHinder) {
+TEST(Homing, AReleasedEmergencyStopDoesNotPreventHoming) {
     HomeRig rig;
     rig.start();
     ASSERT_TRUE(rig.driver.TCurve_C(1, 50, 100, 100));

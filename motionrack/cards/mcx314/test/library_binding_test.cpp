@@ -260,7 +260,7 @@ std::int64_t rotor_homed_by(std::string_view name) {
     return rig.rotor();
 }
 
-TEST(DeclaredLibrary, EachHomingFunctionEndsWhereTheSourceStates) {
+TEST(DeclaredLibrary, EachHomingFunctionEndsAtThePositionThatTheSourceStates) {
     constexpr std::int64_t edge = -19 * 640;
     EXPECT_NEAR(static_cast<double>(rotor_homed_by("HomeType1")), edge - 399, 8) << "it decelerates from the switch on";
     EXPECT_EQ(rotor_homed_by("HomeType2"), edge);

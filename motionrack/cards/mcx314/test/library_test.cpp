@@ -69,7 +69,7 @@ TEST(DeclaredLibrary, HasTheFunctionsAndArgumentsOfTheHeader) {
     EXPECT_EQ(here, there);
 }
 
-TEST(DeclaredLibrary, RefusesEachValueBesideItsRangeWithTheRange) {
+TEST(DeclaredLibrary, RejectsEachValueOutOfRangeWithTheRange) {
     LibraryRig rig;
     for (const FunctionInfo& function : library_functions())
         for (const ArgumentInfo& one : function.arguments)
@@ -83,7 +83,7 @@ TEST(DeclaredLibrary, RefusesEachValueBesideItsRangeWithTheRange) {
             }
 }
 
-TEST(DeclaredLibrary, TakesWhatAFormBeginsWith) {
+TEST(DeclaredLibrary, AcceptsTheInitialValuesOfItsForms) {
     for (const FunctionInfo& function : library_functions()) {
         if (function.waits) continue;
         LibraryRig rig;
@@ -95,7 +95,7 @@ TEST(DeclaredLibrary, TakesWhatAFormBeginsWith) {
     }
 }
 
-TEST(DeclaredLibrary, NamesWhatThereIsWhereANameIsWrong) {
+TEST(DeclaredLibrary, ListsTheKnownNamesForAnUnknownOne) {
     LibraryRig rig;
     const auto message = [&](std::string_view name, const Arguments& arguments) {
         const Result<CallAnswer> answer = rig.call(name, arguments);
@@ -218,7 +218,7 @@ class StoppedAt final : public RegisterPort {
     std::atomic<bool>& stop_;
 };
 
-TEST(DeclaredLibrary, BeginsNoDriveAfterAStopBetweenAnyTwoAccesses) {
+TEST(DeclaredLibrary, StartsNoDriveAfterAStopBetweenAnyTwoAccesses) {
     const Arguments order = {{"axis", 1}, {"m_Pulse", 5000}, {"m_SV", 100}, {"m_V", 1000}, {"m_A", 100}};
     bool ended = false;
     for (std::int64_t n = 0; !ended; ++n) {

@@ -26,7 +26,7 @@ struct ManualRig : HomeRig {
     Result<void> last;
 };
 
-TEST(Jog, ContinuesWhileItIsRenewedAndDeceleratesWhenItIsNot) {
+TEST(Jog, ContinuesWhileRenewedAndDeceleratesWithoutRenewal) {
     ManualRig rig;
     rig.run(milliseconds(600), 500);
     EXPECT_EQ(rig.manual.state(), ManualState::jogging);
@@ -54,7 +54,7 @@ TEST(Jog, ChangesItsSpeedOnTheFly) {
     EXPECT_EQ(rig.manual.state(), ManualState::jogging);
 }
 
-TEST(Jog, TheOtherWayItStopsFirst) {
+TEST(Jog, StopsBeforeItReverses) {
     ManualRig rig;
     rig.run(milliseconds(300), 900);
     rig.run(milliseconds(2), -400);
@@ -70,7 +70,7 @@ TEST(Jog, TheOtherWayItStopsFirst) {
     EXPECT_EQ(rig.rate(), 0);
 }
 
-TEST(Jog, RestsBeforeItGoesTheOtherWay) {
+TEST(Jog, DwellsAtStandstillBeforeItReverses) {
     ManualRig rig;
     rig.run(milliseconds(300), 900);
     int rested_ms = 0;
@@ -82,7 +82,7 @@ TEST(Jog, RestsBeforeItGoesTheOtherWay) {
     EXPECT_LT(rig.rate(), 0);
 }
 
-TEST(Jog, PressedAgainWhileItDeceleratesItContinuesFromRest) {
+TEST(Jog, RestartsFromStandstillIfRenewedWhileDecelerating) {
     ManualRig rig;
     rig.run(milliseconds(300), 900);
     EXPECT_TRUE(rig.manual.jog(0, rig.now()));
@@ -92,7 +92,7 @@ TEST(Jog, PressedAgainWhileItDeceleratesItContinuesFromRest) {
     EXPECT_NEAR(static_cast<double>(rig.rate()), 3000, 1);
 }
 
-TEST(Jog, EndsAtALimitAndOnlyLeavesIt) {
+TEST(Jog, EndsAtALimitAndMovesAwayFromItOnly) {
     ManualRig rig({.start_mm = 300});
     rig.run(whole_seconds(3), 500);
     EXPECT_FALSE(rig.last);
@@ -105,7 +105,7 @@ TEST(Jog, EndsAtALimitAndOnlyLeavesIt) {
     EXPECT_LT(rig.rotor(), at);
 }
 
-TEST(Jog, IsRefusedWithItsReason) {
+TEST(Jog, IsRejectedWithTheReason) {
     ManualRig rig;
     ManualSettings s;
     s.max_v = 300;
@@ -170,7 +170,7 @@ TEST(ManualHome, HomesWhileTheButtonIsHeld) {
     EXPECT_DOUBLE_EQ(rig.position(), 1.0);
 }
 
-TEST(ManualHome, ReleasedItStopsAndThePositionIsNotValid) {
+TEST(ManualHome, StopsWithoutAValidPositionWhenTheButtonIsReleased) {
     ManualRig rig;
     ASSERT_TRUE(rig.manual.home(rig_settings(2), rig.now()));
     rig.run(milliseconds(200));
@@ -183,7 +183,7 @@ TEST(ManualHome, ReleasedItStopsAndThePositionIsNotValid) {
     EXPECT_FALSE(rig.driver.moving(1));
 }
 
-TEST(Manual, ItsStatesAreThoseOfTheMachineThatIsDeclared) {
+TEST(Manual, HasTheStatesOfTheDeclaredStateTable) {
     EXPECT_EQ(manual_machine().states.size(), static_cast<std::size_t>(ManualState::stopping) + 1);
     ManualRig rig;
     EXPECT_EQ(rig.manual.state_name(), "standing");

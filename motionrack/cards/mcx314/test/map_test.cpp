@@ -56,7 +56,7 @@ bool chip_knows(std::uint32_t code, Variant variant) {
     return true;
 }
 
-TEST(Mcx314Map, TheChipTakesTheReproducedCommandsAndNoOthers) {
+TEST(Mcx314Map, TheChipExecutesTheReproducedCommandsAndNoOthers) {
     std::set<std::uint32_t> original, extended;
     for (const CommandInfo& command : card_map().commands) {
         if (!command.reproduced) continue;
@@ -70,7 +70,7 @@ TEST(Mcx314Map, TheChipTakesTheReproducedCommandsAndNoOthers) {
     }
 }
 
-TEST(Mcx314Map, TheChipHasThePinsOfTheMapAndActiveLowOnesRestHigh) {
+TEST(Mcx314Map, TheChipHasThePinsOfTheMapAndActiveLowOnesAreHighAtReset) {
     sim::Kernel kernel;
     Chip chip(kernel, "c");
     kernel.start();
@@ -90,7 +90,7 @@ TEST(Mcx314Map, TheChipHasThePinsOfTheMapAndActiveLowOnesRestHigh) {
     EXPECT_EQ(wires, pins);
 }
 
-TEST(Mcx314Map, ReadingClearsTheRegistersThatSaySoAndNoOthers) {
+TEST(Mcx314Map, ReadingClearsTheRegistersDeclaredSoAndNoOthers) {
     for (const RegisterInfo& each : card_map().registers) {
         if (each.access == Access::write) continue;
         sim::Kernel kernel;

@@ -52,19 +52,19 @@ void compare(std::uint64_t first, std::uint64_t count, const ChipOptions& option
               << " of output pins" << std::endl;
 }
 
-TEST(Mcx314Oracle, RandomProgramsLookTheSameOnTheChipAndOnItsTwin) {
+TEST(Mcx314Oracle, RandomProgramsGiveTheSameReadingsOnTheChipAndItsTwin) {
     compare(0, trials("MOTIONRACK_PROGRAMS", 1'500, 10'000), {}, [](const Program& p) {
         return Way{p.number % 2 == 0, p.number % 4 >= 2, false, 0, 0};
     });
 }
 
-TEST(Mcx314Oracle, RandomProgramsOfTheAsLookTheSameOnTheChipAndOnItsTwin) {
+TEST(Mcx314Oracle, RandomProgramsOfTheAsGiveTheSameReadingsOnTheChipAndItsTwin) {
     compare(10'000'000, trials("MOTIONRACK_PROGRAMS", 1'000, 6'000), as, [](const Program& p) {
         return Way{p.number % 2 == 0, p.number % 4 >= 2, false, 0, 0};
     });
 }
 
-TEST(Mcx314Oracle, SoTheyDoWithTheOtherReadingsOfTheSources) {
+TEST(Mcx314Oracle, RandomProgramsGiveTheSameReadingsUnderOtherInterpretationsOfTheSources) {
     const auto way = [](const Program& p) {
         return Way{p.number % 2 == 0, p.number % 4 >= 2, p.number % 3 == 0, 0, 0};
     };
@@ -84,7 +84,7 @@ TEST(Mcx314Oracle, FollowedOutputPinsChangeAtTheSameInstants) {
     compare(13'000'000, count, as, followed);
 }
 
-TEST(Mcx314Oracle, ARunCutIntoSlicesGivesTheSame) {
+TEST(Mcx314Oracle, ARunDividedIntoSlicesGivesTheSameReadings) {
     const auto in_slices = [](const Program& p) {
         return Way{p.number % 2 == 0, p.number % 4 >= 2, p.number % 3 == 0, p.number, 0};
     };
@@ -93,7 +93,7 @@ TEST(Mcx314Oracle, ARunCutIntoSlicesGivesTheSame) {
     compare(11'000'000, count, as, in_slices);
 }
 
-TEST(Mcx314Oracle, ARestoredSnapshotGivesTheSameRest) {
+TEST(Mcx314Oracle, ARestoredSnapshotContinuesIdentically) {
     const auto restored = [](const Program& p) {
         return Way{p.number % 2 == 0, false, p.number % 3 == 0, 0, 1 + p.number % (p.ops.size() - 1)};
     };

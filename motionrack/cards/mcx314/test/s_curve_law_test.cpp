@@ -43,7 +43,7 @@ std::vector<CurveData> examples() {
             s_shaped(8'000'000, 400, 4'000, 8'000, 60'000, 20'000)};
 }
 
-TEST(SCurveLaw, TheExamplesEndAtTheirStartSpeed) {
+TEST(SCurveLaw, TheExamplesEndAtTheirInitialSpeed) {
     for (const CurveData& data : examples()) {
         const CurvePlan plan = *plan_drive(data);
         EXPECT_EQ(plan.top_v, data.V) << data.K;
@@ -54,7 +54,7 @@ TEST(SCurveLaw, TheExamplesEndAtTheirStartSpeed) {
     }
 }
 
-TEST(SCurveLaw, AMotorThatStartsAtAFifthMoreThanTheStartSpeedLosesNothing) {
+TEST(SCurveLaw, AMotorWithAStartFrequency20PercentAboveTheInitialSpeedLosesNoSteps) {
     for (const CurveData& data : examples()) {
         for (const std::optional<std::int64_t> offset :
              {std::optional<std::int64_t>(8), std::optional<std::int64_t>()}) {
@@ -109,7 +109,7 @@ RC_GTEST_PROP(SCurveLaw, WithTheOffsetThatFitsADriveEndsAtItsStartSpeed, ()) {
 /// Bits of WR3.
 constexpr unsigned s_curve_on = 0x0004;
 
-TEST(SCurveLaw, NoAccelerationIsLeftWhereARampEnds) {
+TEST(SCurveLaw, AccelerationIsZeroAtTheEndOfARamp) {
     using namespace outside;
     for (const std::uint32_t k : {20u, 61u, 300u, 1'010u}) {
         for (const std::uint32_t accel : {12u, 40u, 200u, 8'000u}) {

@@ -45,7 +45,7 @@ struct AxisRig : HomeRig {
     SingleAxis x;
 };
 
-TEST(SingleAxis, HasNoValidPositionUntilItIsHomedAndThenCountsAsTheMachineStands) {
+TEST(SingleAxis, HasAValidPositionOnlyAfterHomingAndThenThatOfTheMachine) {
     AxisRig rig;
     EXPECT_FALSE(rig.x.position_valid());
     const Result<void> refused = rig.x.move_to(10, 20);
@@ -99,7 +99,7 @@ TEST(SingleAxis, SoftwareLimitsAreInForceExactlyWhileThePositionIsValid) {
     EXPECT_DOUBLE_EQ(rig.x.measured_position(), 7.5);
 }
 
-TEST(SingleAxis, RefusesWithNumbersAndMovesNothing) {
+TEST(SingleAxis, RejectsMovesWithValueAndLimitAndMovesNothing) {
     AxisRig rig;
     rig.home();
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
@@ -208,7 +208,7 @@ TEST(SingleAxis, AMoveIntoALimitIsReported) {
     EXPECT_TRUE(rig.x.move_to(20, 20));
 }
 
-TEST(SingleAxis, WaitTimesOutAndReportsThePosition) {
+TEST(SingleAxis, AWaitTimesOutAndReportsThePosition) {
     AxisRig rig;
     rig.home();
     ASSERT_TRUE(rig.x.move_to(300, 5));

@@ -28,7 +28,7 @@ std::vector<std::array<std::int64_t, 4>> places(const std::vector<Pulse>& pulses
     return out;
 }
 
-TEST(Mcx314Twin, DrivesTheMakersTrapezoidInTheTimeOfTheFormula) {
+TEST(Mcx314Twin, DrivesTheDocumentedTrapezoidInTheTimeOfTheFormula) {
     // R 800,000 (M = 10), A = 200: 250,000 pps/s from 1,000 to 40,000 pps in 0.156 s and 3,198 pulses; 80,000 pulses
     // in 2.1521 s. Fewer pulses shorten the time at 40,000 pps.
     const std::int64_t pulses = thorough() ? 80'000 : 10'000;
@@ -46,7 +46,7 @@ TEST(Mcx314Twin, DrivesTheMakersTrapezoidInTheTimeOfTheFormula) {
     EXPECT_EQ(host.twin.count(0), pulses);
 }
 
-TEST(Mcx314Twin, DrivesTheMakersSCurveInTheTimeOfTheFormula) {
+TEST(Mcx314Twin, DrivesTheDocumentedSCurveInTheTimeOfTheFormula) {
     // K 1010, M = 10: 618,812 pps/s2 a second; a complete S from 1,000 to 40,000 pps takes 0.50209 s and 10,292.9
     // pulses.
     Host host;
@@ -85,7 +85,7 @@ TEST(Mcx314Twin, MakesExactlyTheFixedPulsesWhateverTheParameters) {
     }
 }
 
-TEST(Mcx314Twin, ClosesTheMakersContour) {
+TEST(Mcx314Twin, ClosesTheDocumentedContour) {
     Host host;
     host.speeds(x | y, 16'000, 8000, 8000, 8000, 8000, 1, 0);
     struct Row {
@@ -145,7 +145,7 @@ TEST(Mcx314Twin, KeepsALineWithinHalfAPulse) {
     }
 }
 
-TEST(Mcx314Twin, KeepsACircleWithinHalfAPulseAndComesBack) {
+TEST(Mcx314Twin, KeepsACircleWithinHalfAPulseAndReturnsToItsStart) {
     for (std::int64_t cx = -12; cx <= 60; cx += 3) {
         for (std::int64_t cy = -40; cy <= 9; cy += 7) {
             for (int code : {0x32, 0x33}) {

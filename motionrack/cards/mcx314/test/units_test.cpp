@@ -33,7 +33,7 @@ double least_excess(double speed, double widest) {
     return out;
 }
 
-TEST(Units, TheRangeIsTheWidestThatReachesAndTheSpeedComesOutAsAsked) {
+TEST(Units, ChoosesTheWidestSufficientRangeAndReachesTheRequestedSpeed) {
     EXPECT_TRUE(rc::check([] {
         const Scale scale{any(0.1, 10'000)};
         RealDrive drive;
@@ -94,7 +94,7 @@ TEST(Units, RegistersConvertBackToTheGivenValues) {
 }
 
 /// The scaling table: R, M, and the meaning of 1 and of the maximum of each register.
-TEST(Units, TheScalingTable) {
+TEST(Units, MatchesTheScalingTable) {
     struct Row {
         std::int64_t r;
         double v1, v8000, a1, a8000, k65535, k1;
