@@ -65,7 +65,7 @@ TEST(Rtc5Card, TheLaserWireChangesAtHalfMicroseconds) {
     EXPECT_EQ(kernel.level(kernel.find_wire("scan.xout")), 100);
 }
 
-TEST(Rtc5Card, OutputsComeTickByTickToWhoWantsThem) {
+TEST(Rtc5Card, DeliversOutputsTickByTickToSubscribers) {
     sim::Kernel kernel;
     Card card(kernel, "scan", small);
     Listener listener(kernel, {"scan.xout"});
@@ -101,7 +101,7 @@ TEST(Rtc5Card, EncoderLinesCountFourfoldAndBothAtOnceAreAnError) {
     EXPECT_EQ(card.engine().get_marking_info(), marking_bit("ENCODER_Y_SEQUENCE"));
 }
 
-TEST(Rtc5Card, AWordOnTheMcbspIsTakenInTheNextTick) {
+TEST(Rtc5Card, AWordOnTheMcbspIsReadInTheNextTick) {
     sim::Kernel kernel;
     Card card(kernel, "scan", small);
     kernel.start();
@@ -137,7 +137,7 @@ TEST(Rtc5Card, StartAndStopLinesWorkAndALostStartIsReported) {
     EXPECT_NE(describe(conditions[1], "scan").find("an external start was lost"), std::string::npos);
 }
 
-TEST(Rtc5Card, ASnapshotBringsTheSameFutureAndRunsDoNotAllocate) {
+TEST(Rtc5Card, ARestoredSnapshotContinuesIdenticallyAndRunsDoNotAllocate) {
     sim::Kernel kernel;
     Card card(kernel, "scan", small);
     Listener listener(kernel, {"scan.xout", "scan.laser_on"});
@@ -198,7 +198,7 @@ TEST(Rtc5Card, TheStateHashDistinguishesListsByTheirContentsOnly) {
     EXPECT_EQ(kernel.state_hash(), hash_of({b, nop}));
 }
 
-TEST(Rtc5Card, TheStateHashReadsKilobytesNotTheListMemory) {
+TEST(Rtc5Card, TheStateHashDoesNotReadTheWholeListMemory) {
     sim::Kernel kernel;
     Card card(kernel, "scan");
     kernel.start();

@@ -8,7 +8,7 @@ namespace {
 /// A lens whose maker's table is known at some points.
 constexpr sim::ScanLens d2_721 = {{255.059, -1.365, 1.493, -18.087}, 11.7, 5184};
 
-TEST(Rtc5Correction, TheLensGivesTheMakersPoints) {
+TEST(Rtc5Correction, TheLensGivesTheDocumentedPoints) {
     const int points[6][4] = {{524288, 0, 491467, 0},           {131072, 0, 122233, 0},
                               {0, 131072, 0, 122233},           {-262144, -262144, -248226, -243338},
                               {524288, 524288, 523249, 481564}, {-360448, 294912, -343078, 272556}};
@@ -36,7 +36,7 @@ TEST(Rtc5Correction, ALensAndItsInverseAreExact) {
     EXPECT_FALSE(sim::check({{255, 0, 0, 0}, 11.7, std::nan("")}));
 }
 
-TEST(Rtc5Correction, ATableMadeFromALensPutsTheSpotWhereItWasAskedFor) {
+TEST(Rtc5Correction, ATableMadeFromALensPutsTheSpotAtTheProgrammedPosition) {
     Rig rig;
     ASSERT_TRUE(rig.card.load_correction(table_of(*correction_of(d2_721)), 1));
     ASSERT_TRUE(rig.card.select_cor_table(1, 0));
@@ -92,7 +92,7 @@ TEST(Rtc5Correction, DamagedShortAndForeignFilesAreRefusedWithTheReason) {
     EXPECT_FALSE(read_ct5({}, "empty"));
 }
 
-TEST(Rtc5Correction, ABitTurnedOverIsFoundWhereverItIsAndWhateverProgramTheFileIsOf) {
+TEST(Rtc5Correction, DetectsAnyInvertedBitInAFileOfAnyProgram) {
     for (const std::int32_t program : {403, 1403, 399, 0}) {
         const auto good = written_ct5(plain_file(program));
         ASSERT_TRUE(read_ct5(good, "x")) << program;
@@ -120,7 +120,7 @@ TEST(Rtc5Correction, ABitTurnedOverIsFoundWhereverItIsAndWhateverProgramTheFileI
               "loaded");
 }
 
-TEST(Rtc5Correction, AnOlderFileIsReadWithANoteThatItsChecksumIsNotKnown) {
+TEST(Rtc5Correction, AnOlderFileIsReadWithAWarningThatItsChecksumIsUnknown) {
     auto bytes = written_ct5(plain_file(310));
     for (std::size_t i = ct5_bytes - 4; i < ct5_bytes; ++i) bytes[i] = static_cast<std::uint8_t>(i * 37);
     const auto read = read_ct5(bytes, "old.ct5");
@@ -131,7 +131,7 @@ TEST(Rtc5Correction, AnOlderFileIsReadWithANoteThatItsChecksumIsNotKnown) {
     EXPECT_EQ(read_ct5(written_ct5(plain_file()), "new.ct5")->note, "");
 }
 
-TEST(Rtc5Correction, WithoutBitsPerMillimetreAFileIsRefusedButForTheMakersOwnOneToOneTable) {
+TEST(Rtc5Correction, RejectsFilesWithoutBitsPerMillimetreExceptTheMakersOneToOneTable) {
     CorrectionFile file = plain_file();
     file.header[1] = 0;
     EXPECT_EQ(refusal_of(written_ct5(file)),
@@ -177,7 +177,7 @@ TEST(Rtc5Correction, TablesMadeFromLensesCanBeInverted) {
         }
 }
 
-TEST(Rtc5Correction, TheMadeOneToOneTableIsOneToOneInItsLastCellToo) {
+TEST(Rtc5Correction, TheGeneratedOneToOneTableIsOneToOneInItsLastCell) {
     Rig rig;
     ASSERT_TRUE(rig.card.load_correction(table_of(one_to_one()), 1));
     ASSERT_TRUE(rig.card.select_cor_table(1, 0));

@@ -106,7 +106,7 @@ TEST(Rtc5Fly, TwoReadingsOfTheMcBspGiveTheScale) {
     EXPECT_DOUBLE_EQ(fly_k / increment, 5.184);
 }
 
-TEST(Rtc5Fly, LocationZeroIsFilledAfterFlyReturnAndAfterAReset) {
+TEST(Rtc5Fly, LocationZeroIsWrittenAfterFlyReturnAndAfterAReset) {
     Rig rig;
     rig.card.receive(5);
     rig.run(1);
@@ -204,7 +204,7 @@ TEST(Rtc5Fly, TheRotaryCorrectionTurnsCounterClockwiseAboutItsCentre) {
     }
 }
 
-TEST(Rtc5Fly, TheTrackingErrorPutsTheCountAhead) {
+TEST(Rtc5Fly, TheTrackingErrorExtrapolatesTheCount) {
     Rig rig;
     Belt belt;
     belt.per_tick = 2;
@@ -250,7 +250,7 @@ TEST(Rtc5Fly, ASquareOnABeltIsASquareOnThePart) {
     }
 }
 
-TEST(Rtc5Fly, ConditionsLookAtTheLimitsAndClearThem) {
+TEST(Rtc5Fly, ConditionalCommandsReadTheLimitFlagsAndClearThem) {
     Rig rig;
     rig.put(Op::set_fly_limits, {-1000, 1000, -1000, 1000});
     rig.put(Op::activate_fly_xy, {1, 1});
@@ -280,7 +280,7 @@ TEST(Rtc5Fly, PositionsOutsideTheFieldAreClippedFlaggedAndReported) {
               std::vector<std::string>{"FLY_X_OVERFLOW: the corrected X was above 524287"});
 }
 
-TEST(Rtc5Fly, StoredEncodersAreReadAndSpeedIsSmoothed) {
+TEST(Rtc5Fly, StoredEncodersAreReadAndTheirVelocityIsSmoothed) {
     Rig rig;
     ASSERT_TRUE(rig.card.simulate_encoder(1));
     rig.put(Op::set_encoder_speed, {0, 1000, 0.5});
@@ -317,7 +317,7 @@ TEST(Rtc5Fly, TheExtentGivesTheMarginOfAJobWithAndWithoutObservers) {
     }
 }
 
-TEST(Rtc5Fly, FlyReturnJumpsFromWhereTheCorrectionHadTheSpot) {
+TEST(Rtc5Fly, FlyReturnJumpsFromTheCorrectedPosition) {
     Rig rig;
     ASSERT_TRUE(rig.card.simulate_encoder(1));
     rig.put(Op::set_jump_speed, {10'000});

@@ -56,7 +56,7 @@ TEST(Rtc5List, AVariableCornerDelayGrowsWithTheAngle) {
     EXPECT_EQ(ticks(-100, 0), 40);
 }
 
-TEST(Rtc5List, AnEarlyLaserLengthensTheWay) {
+TEST(Rtc5List, ANegativeLaserOnDelayLengthensTheMark) {
     Rig rig;
     rig.put(Op::set_laser_delays, {-50, 0});
     rig.put(Op::mark_abs, {100, 0});
@@ -96,7 +96,7 @@ TEST(Rtc5List, ListsChangeOnceByAutoChangeAndRepeatedlyInALoop) {
     EXPECT_TRUE(rig.card.run_to_rest(1000, &rig));
 }
 
-TEST(Rtc5List, ListsThatTakeNoTimeDoNotHangInALoop) {
+TEST(Rtc5List, ALoopOfListsWithoutDurationDoesNotHang) {
     Rig rig;
     rig.put(Op::set_end_of_list);
     rig.begin(2);
@@ -107,7 +107,7 @@ TEST(Rtc5List, ListsThatTakeNoTimeDoNotHangInALoop) {
     EXPECT_FALSE(rig.card.busy());
 }
 
-TEST(Rtc5List, AListThatIsFullTakesNoMoreAndARunningOneIsNotStartedAgain) {
+TEST(Rtc5List, AFullListRejectsCommandsAndARunningOneIsNotRestarted) {
     Rig rig;
     for (int i = 0; i < 1000; ++i) rig.put(Op::list_nop);
     const auto full = rig.card.put(*list_command(Op::list_nop, {}));
@@ -126,7 +126,7 @@ TEST(Rtc5List, AListThatIsFullTakesNoMoreAndARunningOneIsNotStartedAgain) {
     EXPECT_EQ(rig.card.state().lists.ended_unwritten, 1) << "list 2 was never written";
 }
 
-TEST(Rtc5List, ListsThatDoNotFitTheMemoryAreRefusedHoweverLongTheyAre) {
+TEST(Rtc5List, ListsLongerThanTheMemoryAreRejected) {
     constexpr std::int64_t max_length = std::numeric_limits<std::int64_t>::max(),
                            min_length = std::numeric_limits<std::int64_t>::min();
     Rig rig;
@@ -144,7 +144,7 @@ TEST(Rtc5List, ListsThatDoNotFitTheMemoryAreRefusedHoweverLongTheyAre) {
     }
 }
 
-TEST(Rtc5List, NumbersThatAreNoneOrOutOfRangeAreRefusedWithTheirLocation) {
+TEST(Rtc5List, NonFiniteAndOutOfRangeNumbersAreRejectedWithTheirLocation) {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
     EXPECT_FALSE(list_command(Op::mark_abs, {nan, 0}));
     EXPECT_FALSE(list_command(Op::set_fly_x, {infinite}));
@@ -171,7 +171,7 @@ TEST(Rtc5List, NumbersThatAreNoneOrOutOfRangeAreRefusedWithTheirLocation) {
     EXPECT_FALSE(check({.list_memory = 10}));
 }
 
-TEST(Rtc5List, TheMatrixTurnsBehindTheCorrection) {
+TEST(Rtc5List, TheMatrixIsAppliedAfterTheCorrection) {
     Rig rig;
     ASSERT_TRUE(rig.card.set_matrix(1, {0.5, -0.866, 0.866, 0.5}, 1));
     rig.put(Op::micro_vector_abs, {1000, 0, -1, -1});
@@ -190,7 +190,7 @@ TEST(Rtc5List, ATransformForTheNextJumpWaitsForIt) {
     EXPECT_EQ(rig.x[1], 100);
 }
 
-TEST(Rtc5Starts, TrackDelaysQueueEightAndAStartIntoARunningListIsLost) {
+TEST(Rtc5Starts, TrackDelaysQueueEightStartsAndAStartDuringAListIsLost) {
     Rig rig;
     ASSERT_TRUE(rig.card.simulate_encoder(1));
     rig.card.set_control_mode(control_ext_start);
@@ -245,7 +245,7 @@ TEST(Rtc5Starts, NotifiesAListenerOfEachStartAndEndInItsTick) {
     EXPECT_EQ(reported.all, expected);
 }
 
-TEST(Rtc5Starts, EquidistantPartsCountFromTheStartBefore) {
+TEST(Rtc5Starts, EquidistantPartsAreCountedFromThePreviousStart) {
     Rig rig;
     ASSERT_TRUE(rig.card.simulate_encoder(1));
     rig.card.set_control_mode(control_ext_start | control_equidistant);
@@ -275,7 +275,7 @@ TEST(Rtc5Starts, ResetAtStartZeroesTheEncoderWithTheList) {
     EXPECT_EQ(rig.card.encoder(0), 0);
 }
 
-TEST(Rtc5Card, AStateAtAnInstantDoesNotDependOnHowItWasReached) {
+TEST(Rtc5Card, AStateAtAnInstantIsIndependentOfTheDivisionOfTime) {
     const auto state_after = [](std::vector<std::int64_t> steps, bool looked_at) {
         Rig rig;
         static_cast<void>(rig.card.simulate_encoder(1));
@@ -303,7 +303,7 @@ TEST(Rtc5Card, AStateAtAnInstantDoesNotDependOnHowItWasReached) {
     EXPECT_EQ(whole, state_after({3, 1, 600}, false));
 }
 
-TEST(Rtc5Card, EverySettingOfOneCardLeavesAnotherAlone) {
+TEST(Rtc5Card, SettingsOfOneCardDoNotAffectAnother) {
     Rig a, b;
     ASSERT_TRUE(a.card.simulate_encoder(3));
     a.put(Op::set_fly_x, {3});
@@ -314,7 +314,7 @@ TEST(Rtc5Card, EverySettingOfOneCardLeavesAnotherAlone) {
     EXPECT_EQ(b.last_x(), 9);
 }
 
-TEST(Rtc5List, TheTimeToRestDoesNotDependOnObservers) {
+TEST(Rtc5List, TheTimeToStandstillIsTheSameWithAndWithoutObservers) {
     for (const double target :
          {51'100.0, 51'200.0, 51'300.0, 102'400.0}) {  // 511, 512, 513, 1024 ticks: ends of blocks
         Rig seen, unseen;

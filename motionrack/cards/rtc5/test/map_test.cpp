@@ -18,7 +18,7 @@ TEST(Rtc5Map, TheReferencePageIsCurrent) {
         << "make it anew: motionrack describe rtc5 --markdown > docs/reference/rtc5.md";
 }
 
-TEST(Rtc5Map, CommandsTellTheirParameters) {
+TEST(Rtc5Map, CommandsDeclareTheirParameters) {
     EXPECT_EQ(command_named(map::commands, "mark_abs").meaning, "(X, Y): straight, laser on, at the mark speed");
     EXPECT_EQ(command_named(map::commands, "list_nop").meaning, "one tick");
 }

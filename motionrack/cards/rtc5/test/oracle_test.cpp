@@ -355,7 +355,7 @@ class Pair {
     bool ran_ = false;
 };
 
-TEST(Rtc5Oracle, RandomJobsLookTheSameOnTheTwin) {
+TEST(Rtc5Oracle, RandomJobsGiveTheSameOutputsOnTheCardAndItsTwin) {
     const std::uint64_t seed = seed_from_environment(20250);
     const auto count = static_cast<int>(cases("MOTIONRACK_PROGRAMS", 1500));
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << count << " jobs\n";

@@ -16,7 +16,7 @@ void micro_vectors(Rig& rig, int n) {
     for (int i = 0; i < n; ++i) rig.put(Op::micro_vector_rel, {10, -1, -1, -1});
 }
 
-TEST(Rtc5Recording, SetTrigger4TakesASampleAtOnceAndThenOneAPeriod) {
+TEST(Rtc5Recording, SetTrigger4TakesASampleAtOnceAndThenOnePerPeriod) {
     Rig rig;
     ASSERT_TRUE(rig.card.simulate_encoder(3));
     rig.put(Op::set_fly_x, {0.5});
@@ -44,7 +44,7 @@ TEST(Rtc5Recording, SetTriggerStartsInItsTickAndAPolylineContinuesThroughIt) {
     EXPECT_EQ(recorded(rig.card, 1), (std::vector<std::int32_t>{1, 1, 1, 0, 0, 0, 0, 0, 0, 0}));
 }
 
-TEST(Rtc5Recording, StagesOfTheHeadAreTakenApart) {
+TEST(Rtc5Recording, StagesOfTheHeadAreRecordedSeparately) {
     Rig rig;
     CorrectionFile shifted = one_to_one();
     for (std::int32_t& x : shifted.x) x = std::min(x + 1000, 1'048'575);
@@ -154,7 +154,7 @@ TEST(Rtc5Mcbsp, SendsItsSignalsInTurn) {
     EXPECT_EQ(rig.card.mcbsp_sent(), 0);
 }
 
-TEST(Rtc5Mcbsp, ThePresentWordIsReadAndKeptAtLocation0) {
+TEST(Rtc5Mcbsp, TheCurrentWordIsReadAndStoredAtLocation0) {
     Rig rig;
     rig.card.receive(0xFFFE0003);
     EXPECT_FALSE(rig.card.get_mcbsp()) << "it is not taken yet";
@@ -182,7 +182,7 @@ TEST(Rtc5Mcbsp, OnlinePositioningInListsKeepsTheOtherAxes) {
     EXPECT_EQ(rig.last_y(), 5 * 3);
 }
 
-TEST(Rtc5Laser, DisabledItIsOffAndNothingSwitchesItOnUntilItIsEnabled) {
+TEST(Rtc5Laser, StaysOffWhileDisabled) {
     Rig rig;
     rig.put(Op::set_mark_speed, {1000});
     rig.put(Op::mark_abs, {200, 0});
@@ -203,7 +203,7 @@ TEST(Rtc5Laser, DisabledItIsOffAndNothingSwitchesItOnUntilItIsEnabled) {
     EXPECT_EQ(std::count(rig.laser.begin(), rig.laser.end(), 20), 5 + 10);
 }
 
-TEST(Rtc5List, ALineTellsWhichListIsLoadedReadyBusyAndUsed) {
+TEST(Rtc5List, StatusReportsWhichListIsLoadedReadyBusyAndUsed) {
     Rig rig;
     const auto bits = [&] { return rig.card.list_status(); };
     constexpr std::uint32_t load1 = list_status_bit("LOAD1"), load2 = list_status_bit("LOAD2"),
@@ -235,7 +235,7 @@ TEST(Rtc5List, ALineTellsWhichListIsLoadedReadyBusyAndUsed) {
     EXPECT_EQ(bits(), load1 | ready2 | busy2);
 }
 
-TEST(Rtc5List, PositionsCountFromTheListsBeginAndBehindItsEndTheyAre0) {
+TEST(Rtc5List, PositionsCountFromTheBeginningOfTheListAndAreZeroBehindItsEnd) {
     Rig rig;
     ASSERT_TRUE(rig.card.set_start_list(2, 5));
     EXPECT_EQ(rig.card.input_pointer(), 1005);

@@ -59,7 +59,7 @@ struct Station {
     Jumps inputs;
 };
 
-TEST(Rtc5Starts, AWaitingStartIsDueAtItsCountAfterARewindToo) {
+TEST(Rtc5Starts, APendingStartIsDueAtItsCountAfterARewind) {
     // 60 counts for ten ticks only: a later query, or one from another position, does not see them.
     const std::vector<Jumps::Jump> jumps = {{20, 60}, {30, 0}, {700, 60}};
     Station rewound(jumps), fresh(jumps);
@@ -76,7 +76,7 @@ TEST(Rtc5Starts, AWaitingStartIsDueAtItsCountAfterARewindToo) {
     }
 }
 
-TEST(Rtc5Starts, AWaitingStartIsDueAtItsCountFromARestoredTravelToo) {
+TEST(Rtc5Starts, APendingStartIsDueAtItsCountAfterARestore) {
     const std::vector<Jumps::Jump> jumps = {{100, 30}};
     Station station(jumps);
     station.rig.run(10);
@@ -89,7 +89,7 @@ TEST(Rtc5Starts, AWaitingStartIsDueAtItsCountFromARestoredTravelToo) {
     EXPECT_EQ(station.begins_within(200), 100);
 }
 
-TEST(Rtc5Starts, AWaitingStartIsDueAtItsCountAfterTheProgramWasLoadedAnew) {
+TEST(Rtc5Starts, APendingStartIsDueAtItsCountAfterReloadingTheProgram) {
     const std::vector<Jumps::Jump> jumps = {{50, -100}, {200, 0}};
     Station reset(jumps), fresh(jumps);
     reset.rig.card.external_start();

@@ -68,7 +68,7 @@ TEST(Rtc5Station, ASquareOnABeltIsDistortedWithoutCorrectionAndRightWithIt) {
     EXPECT_EQ(with.card.get_marking_info(), 0u);
 }
 
-TEST(Rtc5Station, LineSpeedMayChangeWithAnEncoderButNotWithTheSimulatedOne) {
+TEST(Rtc5Station, TheBeltVelocityMayChangeWithAnEncoderButNotWithTheSimulatedOne) {
     auto settings = belt(100);
     settings.track.profile = {{0, 50}, {0.05, 150}, {0.1, 80}};
     Machine with(settings), simulated(settings);
@@ -77,7 +77,7 @@ TEST(Rtc5Station, LineSpeedMayChangeWithAnEncoderButNotWithTheSimulatedOne) {
     EXPECT_GT(simulated.square({*list_command(Op::set_fly_x, {station_k * 100 / 1e6})}).max_mm, 0.5);
 }
 
-TEST(Rtc5Station, TheTrackingErrorTakesTheMirrorsLagOffTheBelt) {
+TEST(Rtc5Station, TheTrackingErrorCompensatesTheLagOfTheMirrors) {
     auto settings = belt(500);
     settings.galvo = {.ideal_mirrors = false,
                       .dead_time_us = 50,
@@ -122,7 +122,7 @@ TEST(Rtc5Station, ARotaryTableIsFollowed) {
     EXPECT_LE(machine.square({*list_command(Op::set_fly_rot, {3'600'000})}).max_mm, 0.002);
 }
 
-TEST(Rtc5Station, EnergyAMillimetreIsPowerOverSpeedOnThePart) {
+TEST(Rtc5Station, EnergyPerMillimetreIsPowerOverSpeedOnThePart) {
     Machine machine(belt(0));
     machine.square({});
     double marked = 0, dwelt = 0;

@@ -8,7 +8,7 @@
 namespace motionrack::rtc5 {
 namespace {
 
-TEST(Rtc5Wobbel, GoesRoundAnEllipseAboutTheMarkAndNotAboutTheJump) {
+TEST(Rtc5Wobbel, MovesOnAnEllipseAroundMarksAndNotAroundJumps) {
     Rig rig;
     rig.put(Op::set_mark_speed, {1000});  // 10 bits per tick
     rig.put(Op::set_jump_speed, {1000});
@@ -53,7 +53,7 @@ TEST(Rtc5Wobbel, TurnsWithThePathAndContinuesInCorners) {
     EXPECT_NEAR(at30, 1100, 1);
 }
 
-TEST(Rtc5Wobbel, IsUnderTheCorrectionAndOffWithoutAmplitudeOrFrequency) {
+TEST(Rtc5Wobbel, IsCorrectedAndOffWithoutAmplitudeOrFrequency) {
     for (const auto& [transversal, hertz] : {std::pair{0.0, 2500.0}, std::pair{100.0, 0.0}, std::pair{100.0, 2500.0}}) {
         Rig rig;
         rig.put(Op::set_rot_center_list, {0, 0});
@@ -69,7 +69,7 @@ TEST(Rtc5Wobbel, IsUnderTheCorrectionAndOffWithoutAmplitudeOrFrequency) {
     EXPECT_EQ(list_command(Op::set_wobbel, {200'000, 3, -9000})->p, (std::array<double, 4>{131'071, 3, -6000, 0}));
 }
 
-TEST(Rtc5Subroutines, ACallGoesThereAndBackWithoutTakingTime) {
+TEST(Rtc5Subroutines, ACallAndItsReturnTakeNoTime) {
     Rig rig;
     ASSERT_TRUE(rig.card.load_sub(5));
     rig.put(Op::micro_vector_rel, {1, 0, -1, -1});
