@@ -170,7 +170,7 @@ TEST(GcodeCutter, EventsStayInOrderWithTheMoves) {
     EXPECT_EQ(order, "mmcdmpamse");
 }
 
-TEST(GcodeCutter, NoMoreThanTenThousandStepsWaitForTheNextMove) {
+TEST(GcodeCutter, QueuesAtMostTenThousandCallsBeforeTheNextMove) {
     std::string program = "F100\nG41.1 D4\nG1 X20\n";
     for (int i = 0; i < 9'999; ++i) program += "M8\n";
     const auto good = read(program + "(a comment)\nY20\nM8\n");
@@ -206,7 +206,7 @@ TEST(GcodeCutter, InsertsNoArcsAtNearlyTangentCorners) {
     EXPECT_EQ(arcs, 1);  // where the first chord leaves the lead-in
 }
 
-TEST(GcodeCutter, TakesTheDiameterOfATool) {
+TEST(GcodeCutter, UsesTheDiameterOfTheTool) {
     Settings settings = testing::machine();
     settings.tools = *read_tool_table("T7 D8\nT3 D2\n");
     for (const char* way :
@@ -275,7 +275,7 @@ TEST(GcodeCutter, RejectsImpossibleContoursWithPositionAndReason) {
     testing::expect_refused(cutter_preamble, cutter_refused);
 }
 
-TEST(GcodeCutter, AMoveThatTheProgramsEndFindsTooShortIsNamed) {
+TEST(GcodeCutter, ReportsATooShortLastMoveAtTheEndOfTheProgram) {
     const auto program = read(std::string(cutter_preamble) + "G41.1 D6\nG1 X20\nY60\nX10\nY57.5\n");
     ASSERT_EQ(program.problems.size(), 1u);
     EXPECT_EQ(program.problems[0].location, (TextPosition{7, 1}));

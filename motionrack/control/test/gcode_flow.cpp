@@ -129,7 +129,7 @@ TEST(GcodeFlow, LoadsSubprogramsFromFilesBesideTheProgram) {
     EXPECT_THAT(read.problems[4].message, HasSubstr("cannot be a file in its folder"));
 }
 
-TEST(GcodeFlow, ThatDoesNotFitTogetherIsReportedWithItsLocation) {
+TEST(GcodeFlow, ReportsUnbalancedOWordsWithTheirLocation) {
     const RefusedAt rows[] = {{"X1\no1 if [1]\nX2", 2, "its o1 endif is missing"},
                               {"o1 endif", 1, "no o1 if is open here"},
                               {"o1 while [1]\no2 if [1]\no1 endwhile\no2 endif", 3, "o2 if of line 2 is open here"},
@@ -154,7 +154,7 @@ TEST(GcodeFlow, ThatDoesNotFitTogetherIsReportedWithItsLocation) {
     EXPECT_THAT(problems("X1 o1 if [1]")[0].message, HasSubstr("must be first on its line"));
 }
 
-TEST(GcodeFlow, ThatCannotBeDoneIsPassedOver) {
+TEST(GcodeFlow, ReportsFaultyOWordsAndContinues) {
     const auto read = testing::read(
         "G0\no1 if [1 / 0]\nX1\no1 else\nX2\no1 endif\no2 while [#<no>]\nX3\no2 endwhile\no3 call\no4 repeat "
         "[]\nX4\no4 endrepeat\no5 if\no5 endif\n"
@@ -208,7 +208,7 @@ TEST(GcodeFlow, WithManyBranchesInALoopIsStopped) {
     EXPECT_THAT(found[0].message, ::testing::ContainsRegex("executed 1[0-9][0-9][0-9][0-9] lines"));
 }
 
-TEST(GcodeFlow, IsCheckedOnceHoweverOftenALineIsGoneThrough) {
+TEST(GcodeFlow, ChecksALineOnceHoweverOftenItIsExecuted) {
     const ProgramCheck check =
         check_program("G0\no1 repeat [100]\nX9999\nY1\no1 endrepeat\nX1\nM2\n", testing::machine(), 20);
     ASSERT_EQ(check.problems.size(), 1u);
@@ -218,7 +218,7 @@ TEST(GcodeFlow, IsCheckedOnceHoweverOftenALineIsGoneThrough) {
     EXPECT_TRUE(check.ended);
 }
 
-TEST(GcodeFlow, MayStandBehindLineNumbersAndSlashes) {
+TEST(GcodeFlow, AcceptsOWordsAfterLineNumbersAndSlashes) {
     EXPECT_THAT(xs("N10 o1 if [1] (comment)\nX1\nN20 o1 endif ; over\n/o2 repeat [2]\nX2\n/o2 endrepeat\n"),
                 ElementsAre(1, 2, 2));
     EXPECT_THAT(xs("(pocket) o1 repeat [2] (twice)\nX1\n(so much)N5(for that) o1 endrepeat\n"), ElementsAre(1, 1));

@@ -27,7 +27,7 @@ TEST_P(GcodeGolden, MovesAreThoseOfRs274) {
 INSTANTIATE_TEST_SUITE_P(Programs, GcodeGolden, ::testing::ValuesIn(names()),
                          [](const auto& parameter) { return parameter.param; });
 
-TEST(GcodeCorpus, HasMoreThanFiftyProgramsThatUseEveryWord) {
+TEST(GcodeCorpus, HasMoreThanFiftyProgramsWithEveryWord) {
     EXPECT_GE(names().size(), 50u);
     std::set<int> g, m;
     std::string all;

@@ -36,7 +36,7 @@ Problem problem_of(const std::string& program) {
 
 }  // namespace
 
-TEST(GcodeExpressions, FollowTheStrengthOfTheirOperatorsFromTheLeft) {
+TEST(GcodeExpressions, FollowOperatorPrecedenceFromTheLeft) {
     EXPECT_EQ(value_of("[1 + 2 * 3]"), 7);
     EXPECT_EQ(value_of("[[1 + 2] * 3]"), 9);
     EXPECT_EQ(value_of("[2 ** 3 ** 2]"), 64);
@@ -57,7 +57,7 @@ TEST(GcodeExpressions, FollowTheStrengthOfTheirOperatorsFromTheLeft) {
     EXPECT_EQ(value_of("- [ 3 - - 1 ]"), -4);
 }
 
-TEST(GcodeExpressions, KnowTheFunctions) {
+TEST(GcodeExpressions, HaveAllFunctions) {
     EXPECT_EQ(value_of(" ABS[-3]"), 3);
     EXPECT_NEAR(value_of(" ACOS[0.5]"), 60, 1e-12);
     EXPECT_NEAR(value_of(" asin [0.5]"), 30, 1e-12);
@@ -100,7 +100,7 @@ TEST(GcodeParameters, AreSetAfterTheWholeLineIsRead) {
     EXPECT_EQ(x_after("#1 = 2 #1 = 3\nX#1"), 3) << "the last one counts";
 }
 
-TEST(GcodeParameters, AreReachedThroughOthers) {
+TEST(GcodeParameters, AreIndirectlyAddressable) {
     EXPECT_EQ(x_after("#1 = 2 #2 = 7\nX##1"), 7);
     EXPECT_EQ(x_after("#[1 + 1] = 7\nX#[4 / 2]"), 7);
     EXPECT_EQ(x_after("#<a b> = 3\nX[#<AB> * 2]"), 6) << "neither case nor blanks count in names";
@@ -108,7 +108,7 @@ TEST(GcodeParameters, AreReachedThroughOthers) {
     EXPECT_EQ(x_after("X#77"), 0) << "a number that was never set is 0";
 }
 
-TEST(GcodeParameters, OfALineThatIsRefusedAreNotSet) {
+TEST(GcodeParameters, OfARejectedLineAreNotSet) {
     const auto read = testing::read("G0 #1 = 3\n#1 = 4 X9999\nX#1", testing::machine());
     ASSERT_EQ(read.problems.size(), 1u);
     EXPECT_EQ(read.moves().back().end[0], 3);
@@ -171,7 +171,7 @@ TEST(GcodeParameters, ThatAreFaultyAreReportedWithTheirLocation) {
     }
 }
 
-TEST(GcodeParameters, NestOnlySoFar) {
+TEST(GcodeParameters, HaveALimitedNestingDepth) {
     const std::string deep = std::string(200, '[') + "1" + std::string(200, ']');
     EXPECT_THAT(problem_of("G0 X" + deep).message, HasSubstr("nested brackets"));
     EXPECT_THAT(problem_of("G0 X" + std::string(300, '#') + "1").message, HasSubstr("nested brackets"));
@@ -220,7 +220,7 @@ TEST(GcodeParameters, OfALineAreAllSetOrNone) {
     EXPECT_EQ(read.moves()[0].end[2], 9);
 }
 
-TEST(GcodeParameters, AreNotTakenFromSenders) {
+TEST(GcodeParameters, AreNotAcceptedFromSenders) {
     struct Row {
         const char* line;
         int column, grbl;

@@ -101,7 +101,7 @@ TEST(GcodeReader, ReportsEventsInTheOrderInWhichTheyTakeEffect) {
     EXPECT_EQ(program.steps[13].line, 4);
 }
 
-TEST(GcodeReader, BlockDeleteLeavesLinesOutOrReadsThem) {
+TEST(GcodeReader, BlockDeleteSkipsOrReadsLines) {
     Settings settings = machine();
     EXPECT_EQ(read("/G0 X1\n / G0 X2\nG0 X3", settings).moves().size(), 3u);
     settings.block_delete = true;
@@ -110,7 +110,7 @@ TEST(GcodeReader, BlockDeleteLeavesLinesOutOrReadsThem) {
     EXPECT_EQ(program.moves().size(), 1u);
 }
 
-TEST(GcodeReader, PercentMarksBeginAndEnd) {
+TEST(GcodeReader, PercentSignsBeginAndEndAProgram) {
     EXPECT_EQ(read("%\nG0 X1\n%\nG0 X2").moves().size(), 1u);
     EXPECT_EQ(read("(name)\n\n%\nG0 X1\nX2").moves().size(), 2u);
     EXPECT_EQ(read("G0 X1\n%\nX2").moves().size(), 1u);
@@ -154,7 +154,7 @@ TEST(GcodeReader, M2ResetsTheModalStateAfterTheMoves) {
     EXPECT_EQ(interpreter.frame().offset, Point{});
 }
 
-TEST(GcodeReader, ArcsMayTouchTheLimitsAndPassNoFurtherThanTheyMust) {
+TEST(GcodeReader, ArcsMayReachTheTravelLimitsButNotExceedThem) {
     EXPECT_TRUE(read("G0 X490 Y-10\nG3 X490 Y10 J10 F9").problems.empty());  // touches X500
     EXPECT_FALSE(read("G0 X490.001 Y-10\nG3 Y10 J10 F9").problems.empty());  // X500.001
     EXPECT_TRUE(read("G0 X490.001 Y-10\nG2 Y10 J10 F9").problems.empty());   // the other way round
@@ -162,7 +162,7 @@ TEST(GcodeReader, ArcsMayTouchTheLimitsAndPassNoFurtherThanTheyMust) {
     EXPECT_FALSE(read("G0 X499 Y0\nG3 X489 Y10 Z1 I-10 J-1.1 F9").problems.empty());
 }
 
-TEST(GcodeReader, AnArcWithinToleranceOfItsRadiusIsTaken) {
+TEST(GcodeReader, AnArcWithinTheRadiusToleranceIsAccepted) {
     EXPECT_TRUE(read("F9 G2 X10.004 Y0 I5").problems.empty());
     EXPECT_FALSE(read("F9 G2 X10.012 Y0 I5").problems.empty());
     EXPECT_TRUE(read("F9 G2 X200.1 Y0 I100").problems.empty());  // 0.1 mm in 100 mm
@@ -227,7 +227,7 @@ TEST(GcodeProbing, IsAMoveThatStopsAtItsEnd) {
     }
 }
 
-TEST(GcodeProbing, TheNextLineBeginsWhereTheMachineStands) {
+TEST(GcodeProbing, TheNextLineStartsAtTheStopPosition) {
     Interpreter interpreter(testing::machine());
     ASSERT_TRUE(interpreter.line("G91 F60 G38.2 Z-10", 1));
     ASSERT_EQ(interpreter.pull()->probe, Probe::contact);

@@ -31,7 +31,7 @@ TEST(GcodeNumbered, RunAsOftenAsTheyAreCalled) {
                 ElementsAre(10, 11, 12, 13, 23, 24, 25, 26));
 }
 
-TEST(GcodeNumbered, MayBeLeftFromWithinLoopsAndConditions) {
+TEST(GcodeNumbered, MayReturnFromWithinLoopsAndConditions) {
     EXPECT_THAT(
         xs("G91\nM98 P1 L2\nX100\nM2\nO1\no2 repeat [5]\nX1\no3 if [#5420 GT 2]\nM99\no3 endif\no2 endrepeat\nM99"),
         ElementsAre(1, 2, 3, 4, 104));
@@ -49,7 +49,7 @@ TEST(GcodeNumbered, ShareTheNumbersOfTheirCallerButNotItsNames) {
     EXPECT_THAT(xs("G90\nM98 P1\nX2\nM2\nO1\nM73 G91\nX1\nM99"), ElementsAre(1, 2)) << "M73 ends with the program";
 }
 
-TEST(GcodeNumbered, WithoutACallARunGoesThroughThem) {
+TEST(GcodeNumbered, AreExecutedInlineWithoutACall) {
     EXPECT_THAT(xs("X1\nO5 (just a name)\nX2\nM2"), ElementsAre(1, 2));
     EXPECT_THAT(xs("X1\nM99\nX2"), ElementsAre(1)) << "M99 of the main program ends it";
     EXPECT_THAT(xs("M98 P1\nX9\nM2\nO1\nX1\nO2\nX2\nM99"), ElementsAre(1, 2, 9));

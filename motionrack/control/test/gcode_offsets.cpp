@@ -128,7 +128,7 @@ RC_GTEST_PROP(GcodeTools, OfATableThatIsWrittenAreReadAgain, ()) {
     RC_ASSERT(table->tools()[0].offset == tool.offset);
 }
 
-TEST(GcodeTools, LengthenOrShortenWhereZGoes) {
+TEST(GcodeTools, ShiftZByTheirLength) {
     expect_near(last_end("T1 M6 G43 Z5"), 0, 0, 15);
     expect_near(last_end("G43 H2 X3 Z5"), 4, 0, 25);
     expect_near(last_end("T1 M6\nG43\nG43.2 H2\nX0 Z0"), 1, 0, 30);
@@ -160,7 +160,7 @@ TEST(GcodeTools, AreSetByG10) {
     EXPECT_THAT(problem_with_tools("G10 L1 P1 Z1 R-1"), HasSubstr("0 or more"));
 }
 
-TEST(GcodeTools, ThatTheTableDoesNotHaveAreRefused) {
+TEST(GcodeTools, MissingFromTheTableAreRejected) {
     EXPECT_THAT(problem_with_tools("T3"), HasSubstr("1:1: T3: the tool table has no tool 3"));
     EXPECT_THAT(problem_with_tools("G43 H3"), HasSubstr("1:5: H3: the tool table has no tool 3"));
     EXPECT_THAT(problem_with_tools("M61 Q3"), HasSubstr("has no tool 3"));
@@ -180,7 +180,7 @@ TEST(GcodeWorkSystems, AreNine) {
     EXPECT_THAT(problem_with_tools("G10 L2 P10 X1"), HasSubstr("nine work systems"));
 }
 
-TEST(GcodeWorkSystems, AreTurnedByR) {
+TEST(GcodeWorkSystems, AreRotatedByR) {
     expect_near(last_end("G10 L2 P1 X10 Y20 R90\nX1 Y2 Z3"), 8, 21, 3);
     expect_near(last_end("G10 L2 P1 R90\nX5\nY1"), -1, 5, 0);
     expect_near(last_end("G10 L2 P1 R90\nX5\nG91 X1"), 0, 6, 0);
@@ -195,7 +195,7 @@ TEST(GcodeWorkSystems, AreTurnedByR) {
     expect_near(last_end("T2 M6 G43\nG10 L2 P1 R90\nX5 Y0"), 1, 5, 0);
 }
 
-TEST(GcodeWorkSystems, TurnArcsAndCyclesOfTheirPlane) {
+TEST(GcodeWorkSystems, RotateArcsAndCyclesOfTheirPlane) {
     const auto arc = testing::read(
         "G10 L2 P1 R90\nG1 F9 X10\nG2 X12 Y2 I2 J0\nG90.1 G3 X12 Y-2 I12 J0\nG90.1 G3 X10 Y0 R2", with_tools());
     ASSERT_TRUE(arc.problems.empty()) << arc.problems[0].text();
@@ -228,7 +228,7 @@ RC_GTEST_PROP(GcodeWorkSystems, TurnBackAndForth, ()) {
     RC_ASSERT(std::fabs(static_cast<double>(wanted) - frame.to_machine(there)[0]) < 1e-10);
 }
 
-TEST(GcodeModes, AreKeptAndBroughtBack) {
+TEST(GcodeModes, AreSavedAndRestored) {
     expect_near(last_end("M70\nG20 G91\nX1\nM72\nX1"), 1, 0, 0);
     expect_near(last_end("M70\nG55 G10 L2 P2 X5\nX1\nM72\nX1"), 1, 0, 0);
     expect_near(last_end("M70\nG20\nM71\nM72\nX1"), 25.4, 0, 0);
@@ -236,7 +236,7 @@ TEST(GcodeModes, AreKeptAndBroughtBack) {
     expect_near(last_end("o1 sub\nM70\nG20\nX1\no1 endsub\no1 call\nX1"), 25.4, 0, 0);
 }
 
-TEST(GcodeModes, WhatTheMachineDoesNotHaveIsRefused) {
+TEST(GcodeModes, UnsupportedByTheMachineAreRejected) {
     EXPECT_EQ(problem_with_tools("M48\nM50\nM50 P1\nM51 P1\nM52 P0\nM53 P1\nM60\nG97 S500"), "there are 0 problems");
     for (const char* line : {"M52", "M52 P1"})
         EXPECT_THAT(problem_with_tools(line), HasSubstr("adaptive feed")) << line;

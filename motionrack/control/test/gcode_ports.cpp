@@ -49,7 +49,7 @@ TEST(GcodePorts, OutputsKeepTheirOrderBesideAContour) {
                 ElementsAre("X10", "out P1 1 moving", "X20", "out P1 0", "X30", "X40"));
 }
 
-TEST(GcodePorts, AnInputThatNothingIsConnectedToIsOff) {
+TEST(GcodePorts, AnUnconnectedInputIsOff) {
     EXPECT_THAT(reported("M66 P1\nG0 X[#5399 + 10]"), ElementsAre("in P1 0", "X10"));
     EXPECT_THAT(reported("#5399 = 7\nM66 E3 L0 Q9\nG0 X[#5399 + 10]"), ElementsAre("in E3 0", "X10"));
     EXPECT_THAT(reported("M66 P1 L4 Q9\nG0 X[#5399 + 10]"), ElementsAre("in P1 0", "X10")) << "it is off already";
@@ -126,7 +126,7 @@ TEST(GcodeOverrides, CanBeReadByTheProgram) {
     EXPECT_EQ(value("M49\nM48\nM53 P0\nM53"), "X7");
 }
 
-TEST(GcodeOverrides, AreTheSendersAgainWhenAProgramIsOver) {
+TEST(GcodeOverrides, AreRestoredToTheSendersAfterAProgram) {
     Interpreter interpreter(testing::machine());
     ASSERT_TRUE(interpreter.line("M49", 1, Language::program));
     EXPECT_FALSE(interpreter.modes().feed_override);

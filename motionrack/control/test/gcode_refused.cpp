@@ -192,7 +192,7 @@ TEST(GcodeReader, RefusesProbingWithoutAProbe) {
     EXPECT_THAT(program.problems[0].message, HasSubstr("no probe input"));
 }
 
-TEST(GcodeReader, ErrorTextNamesFileLineColumnAndTheCure) {
+TEST(GcodeReader, ErrorTextNamesFileLineColumnAndRemedy) {
     const auto program = testing::read("G21\n  G1 X5\n");
     ASSERT_EQ(program.problems.size(), 1u);
     EXPECT_EQ(program.problems[0].text(),
@@ -289,7 +289,7 @@ TEST(GcodeCheck, RefusesAProgramWithoutAnyWord) {
     EXPECT_THAT(check_program("(never closed", testing::machine(), 10).problems[0].message, HasSubstr("this comment"));
 }
 
-TEST(GcodeSettings, RefusesNumbersThatAreNone) {
+TEST(GcodeSettings, RejectsNonFiniteNumbers) {
     Settings settings = testing::machine();
     EXPECT_TRUE(check_settings(settings));
     settings.g28[1] = 0.0 / 0.0;

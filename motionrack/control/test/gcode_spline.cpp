@@ -123,7 +123,7 @@ RC_GTEST_PROP(GcodeSpline, ArcsAreWithinAMicrometreOfTheCubicBothWays, ()) {
     RC_ASSERT(max_error <= spline_tolerance_mm + 1e-4);
 }
 
-TEST(GcodeSpline, ArcsPassIntoEachOtherWithoutACorner) {
+TEST(GcodeSpline, ArcsJoinTangentially) {
     auto moves = read(std::string(spline_preamble) + "G5 X60 Y0 I10 J40 P-30 Q20\nX120 P-10 Q-35\n").moves();
     ASSERT_GT(moves.size(), 8u);
     double x = 0, y = 0, out_x = 10 / std::hypot(10, 40), out_y = 40 / std::hypot(10, 40);
@@ -161,7 +161,7 @@ TEST(GcodeSpline, InchesMeanTheSameCurve) {
     for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(testing::describe(one[i]), testing::describe(two[i]));
 }
 
-TEST(GcodeSpline, CuspsLoopsStraightsAndHandlesOfNoLengthAreDriven) {
+TEST(GcodeSpline, CuspsLoopsStraightLinesAndZeroLengthHandlesAreAccepted) {
     for (const char* line :
          {"G5 X40 Y0 I40 J40 P-40 Q40", "G5 X10 Y0 I60 J40 P-60 Q40", "G5 X40 Y0 I10 J0 P-10 Q0",
           "G5 X40 Y0 I0 J0 P0 Q0", "G5 X40 Y20 I0 J0 P-10 Q0", "G5 X40 Y20 I10 J0 P0 Q0", "G5 X40 Y0 I-20 J0 P20 Q0",

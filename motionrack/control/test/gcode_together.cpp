@@ -63,7 +63,7 @@ TEST(GcodeTogether, AMissReportsTheEndInTheUnitsAndRotationOfTheProgram) {
     EXPECT_EQ(ends[1][2], 0);
 }
 
-TEST(GcodeTogether, TheCutterGoesBesideATurnedContourAsBesideOneThatIsNot) {
+TEST(GcodeTogether, CompensatesARotatedContourAsAnUnrotatedOne) {
     const std::string contour =
         "G0 X-20 Y-20 Z5\nG41.1 D6\nG1 X0 Y0\nG1 X30\nG1 X30 Z-1\nG2 X50 Y20 J20 I0\nG3 X60 Y30 R10\nG1 X0 Y60 Z2\nG1 "
         "Y10\nG40 G0 X-20 Y0\n";
@@ -84,7 +84,7 @@ TEST(GcodeTogether, TheCutterGoesBesideATurnedContourAsBesideOneThatIsNot) {
                 HasSubstr("cutter compensation is on"));
 }
 
-TEST(GcodeTogether, ACurveTurnsWithItsWorkSystem) {
+TEST(GcodeTogether, RotatesASplineWithItsWorkOffset) {
     const std::string curves = "G0 X1 Y2\nG5 X20 Y0 I5 J10 P-5 Q10\nG5 X40 Y5 P-4 Q-3\nG5.1 X60 Y0 I10 J10\n";
     const auto plain = testing::read("G21 G90 F100\n" + curves).moves();
     const auto turned = testing::read("G21 G90 F100\nG10 L2 P1 R90\n" + curves).moves();
@@ -96,7 +96,7 @@ TEST(GcodeTogether, ACurveTurnsWithItsWorkSystem) {
     }
 }
 
-TEST(GcodeTogether, ModesThatComeBackWaitForTheCutter) {
+TEST(GcodeTogether, RestoresModesAfterTheQueuedCompensationMoves) {
     EXPECT_THAT(problem_together("G21 G90 F100\nM70\nG55\nG41.1 D4\nG1 X20\nM72\n"),
                 HasSubstr("the work offset cannot change"));
     EXPECT_THAT(problem_together("G20\no1 sub\nM73\nG21 F100 G41.1 D4\nG1 X20\no1 endsub\no1 call\nM2\n"),
@@ -107,7 +107,7 @@ TEST(GcodeTogether, ModesThatComeBackWaitForTheCutter) {
     EXPECT_THAT(problem_together("M61 Q1\nG41.1 D4\nM61 Q2\n"), HasSubstr("M61"));
 }
 
-TEST(GcodeTogether, WhatWaitsAtTheEndOfAWalkIsDriven) {
+TEST(GcodeTogether, DeliversQueuedMovesAtTheEndOfAProgram) {
     const auto moves = testing::read(
                            "G21 G90 F100\no1 repeat [3]\nG91 G41.1 D4\nG1 X20\nG1 X10\nG40\nG1 Y-10\no1 "
                            "endrepeat\nG42.1 D2\nG1 X20\no2 if [1]\nG1 X5\no2 endif")

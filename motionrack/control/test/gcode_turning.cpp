@@ -159,7 +159,7 @@ double left_at(const std::vector<Moved>& moves, std::size_t count, double along)
 
 }  // namespace
 
-RC_GTEST_PROP(GcodeTurning, NeverCutsIntoTheAllowanceNorDeeperThanIAtOnceNorRapidsThroughThePiece, ()) {
+RC_GTEST_PROP(GcodeLathe, NeverCutsIntoTheAllowanceNorDeeperThanIAtOnceNorRapidsThroughThePiece, ()) {
     const auto contour = random_contour(true, 30);
     LatheCycle plan;
     plan.start = {-2, top};
@@ -196,7 +196,7 @@ RC_GTEST_PROP(GcodeTurning, NeverCutsIntoTheAllowanceNorDeeperThanIAtOnceNorRapi
     }
 }
 
-RC_GTEST_PROP(GcodeTurning, LeavesNothingOnTheContourButD, ()) {
+RC_GTEST_PROP(GcodeLathe, LeavesNothingOnTheContourButD, ()) {
     const auto contour = random_contour(true, 30);
     LatheCycle plan;
     plan.start = {-2, top};
@@ -225,7 +225,7 @@ RC_GTEST_PROP(GcodeTurning, LeavesNothingOnTheContourButD, ()) {
     }
 }
 
-RC_GTEST_PROP(GcodeTurning, FinishesAlongTheContourInPassesThatComeNearer, ()) {
+RC_GTEST_PROP(GcodeLathe, FinishesAlongTheContourInPassesThatComeNearer, ()) {
     const auto contour = random_contour(true, 30);
     LatheCycle plan;
     plan.code = 700;
@@ -249,7 +249,7 @@ RC_GTEST_PROP(GcodeTurning, FinishesAlongTheContourInPassesThatComeNearer, ()) {
     RC_ASSERT(std::fabs(nearest - std::min(first, last)) < rough);
 }
 
-RC_GTEST_PROP(GcodeTurning, LeadsThroughNothingThatIsToBeLeftFromWhereverItStarts, ()) {
+RC_GTEST_PROP(GcodeLathe, LeadsThroughNothingThatIsToBeLeftFromWhereverItStarts, ()) {
     const auto contour = random_contour(true, 30);
     LatheCycle plan;
     plan.code = *rc::gen::element<std::int16_t>(700, 710, 711, 712);
@@ -285,19 +285,19 @@ void expect_finished_above(const std::vector<ContourSegment>& contour, PlanePoin
                 << one.at(k / 12.0).first << " " << one.at(k / 12.0).second;
 }
 
-TEST(GcodeTurning, FinishingComesBackOverABulgeThatEndsWhereItBegan) {
+TEST(GcodeLathe, FinishingRetractsOverABulgeThatEndsAtItsStartDiameter) {
     expect_finished_above({{{0, 1}, {19.2, 1}, -1, {9.6, 1}, 0, false, 1}}, {-2, top}, 0, 0);
 }
 
 // In the offset contour the groove ends slightly after its half circle, because its bulge begins within the tolerance
 // of that.
-TEST(GcodeTurning, FinishingComesBackOverABulgeBehindAGrooveThatItNearlyTouches) {
+TEST(GcodeLathe, FinishingRetractsOverABulgeBehindAGrooveThatItNearlyTouches) {
     expect_finished_above(
         {{{0, 0}, {12.9, 0}, 1, {6.45, 0}, 0, false, 1}, {{12.9, 0}, {27.6, 0}, -1, {20.25, -0.147}, 0, false, 2}},
         {-2, top}, 0, 0.2);
 }
 
-TEST(GcodeTurning, FinishingComesBackOverABulgeThatIsHigherThanTheStart) {
+TEST(GcodeLathe, FinishingRetractsOverABulgeAboveTheStart) {
     expect_finished_above({{{0, 1}, {20, 1}, -1, {10, 1}, 0, false, 1}}, {-2, 5}, 0, 0);
     expect_finished_above({{{0, 1}, {10, 20}, 0, {}, 0, false, 1},
                            {{10, 20}, {20, 20}, 0, {}, 0, false, 2},

@@ -11,7 +11,7 @@ namespace motionrack::control::gcode {
 
 using testing::Refused;
 
-TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
+TEST(GcodeLathe, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
     const auto pieces = [](double radius, bool chamfer) {
         std::vector<ContourSegment> contour(2);
         contour[0] = {{0, 10}, {-10, 10}, 0, {}, radius, chamfer, 1};
@@ -34,7 +34,7 @@ TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
     EXPECT_THAT(insert_fillets(straight), ::testing::HasSubstr("no corner for A or C at the end of line 1"));
 }
 
-TEST(GcodeTurning, EndsACycleAtTheContourEndWithTheModesOfTheProgram) {
+TEST(GcodeLathe, EndsACycleAtTheContourEndWithTheModesOfTheProgram) {
     const std::string sub = "o1 sub\nG0 X10 Z2\nG1 Z-30 F7 S5 M3\n#9=3\nX20\no1 endsub\n";
     const auto read = testing::read("G21 G18 G90 F600\n" + sub + "#9=1\nG0 X25 Z5\nG71 Q1 I6 (turn) M8\nG91\nG1 X#9\n");
     EXPECT_EQ(read.problems.size(), 0u);
@@ -53,7 +53,7 @@ TEST(GcodeTurning, EndsACycleAtTheContourEndWithTheModesOfTheProgram) {
     for (const Move& move : moves) EXPECT_EQ(move.end[1], 0);
 }
 
-TEST(GcodeTurning, AreRefusedWithTheirLocation) {
+TEST(GcodeLathe, AreRefusedWithTheirLocation) {
     const std::string before =
         "G21 G18 G90 F600\no1 sub\nG0 X10 Z2\nG1 Z-30\nX20\no1 endsub\no2 sub\nG0 X10 Z2\nG1 Z-30\nG1 X20 Z-20\no2 "
         "endsub\no3 sub\no3 endsub\n"
@@ -108,7 +108,7 @@ TEST(GcodeTurning, AreRefusedWithTheirLocation) {
     EXPECT_FALSE(Interpreter(testing::machine()).line("G18 G71 Q1 F5", 1, Language::expressions));
 }
 
-TEST(GcodeTurning, ARefusedCycleMovesNothingAndTheProgramContinues) {
+TEST(GcodeLathe, ARefusedCycleMovesNothingAndTheProgramContinues) {
     const auto read =
         testing::read("G18 F600\no1 sub\nG0 X10 Z2\nG1 Z-700\nX20\no1 endsub\nG0 X25 Z5\nG71 Q1\nG0 X1\n");
     ASSERT_EQ(read.problems.size(), 1u);

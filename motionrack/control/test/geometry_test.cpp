@@ -88,7 +88,7 @@ TEST(Geometry, TakesTheLargestRotationAsTheLengthOfARotaryMove) {
     EXPECT_DOUBLE_EQ(distance_to(path, 1, 2, 5), 2);
 }
 
-TEST(Geometry, MovesThatGoNowhereAreNothing) {
+TEST(Geometry, MovesWithoutDistanceHaveNoLength) {
     const Point at = {1, 2, 3, 4, 5, 6};
     EXPECT_EQ(geometry_of(line(at), at).shape, PathShape::nothing);
     EXPECT_EQ(geometry_of(line({1 + 1e-12, 2, 3, 4, 5, 6}), at).length, 0);
@@ -112,7 +112,7 @@ TEST(Geometry, AQuarterArcCounterClockwise) {
     EXPECT_DOUBLE_EQ(distance_to(path, 0, 14, 3), 5);   // above and outside
 }
 
-TEST(Geometry, TheSameArcClockwiseGoesTheLongWay) {
+TEST(Geometry, TheSameArcClockwiseCoversTheOtherThreeQuarters) {
     const Geometry path = geometry_of(arc_xy({0, 10, 0, 0, 0, 0}, 0, 0, -1), {10, 0, 0, 0, 0, 0});
     EXPECT_DOUBLE_EQ(path.sweep, -1.5 * pi);
     EXPECT_DOUBLE_EQ(path.tangent_in[1], -1);

@@ -39,7 +39,7 @@ TEST(LookAheadPlanner, AllocatesNothingForAMove) {
     EXPECT_GT(seconds, 5);
 }
 
-TEST(Curve, AllocatesNothingForAMove) {
+TEST(PathBuilderTest, AllocatesNothingForAMove) {
     MachineLimits limits;
     for (AxisLimits& axis : limits) axis = {true, -1e6, 1e6, 100, 1000, 1e5, 1, 1000};
     PathBuilder builder(limits, Point{});

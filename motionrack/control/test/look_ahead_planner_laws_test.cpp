@@ -245,7 +245,7 @@ std::vector<Move> curve(int count, double step) {
     return moves;
 }
 
-TEST(PlannerLaws, AWindowLongerThanTheWayToStopIsAsGoodAsTheWholeProgram) {
+TEST(PlannerLaws, AWindowBeyondTheStoppingDistanceGivesThePlanOfTheWholeProgram) {
     MachineLimits limits;
     for (AxisLimits& axis : limits) axis = {true, -1e9, 1e9, 100, 1000, 0, 1, 1000};
     // stopping from 90 mm/s takes 4.05 mm: 41 lines of 0.1 mm

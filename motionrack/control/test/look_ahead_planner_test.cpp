@@ -51,7 +51,7 @@ std::vector<PlannedMove> plan_path(const MachineLimits& limits, const std::vecto
     return out;
 }
 
-TEST(LookAheadPlanner, ASingleLongLineRisesToTheFeedAndRests) {
+TEST(LookAheadPlanner, ASingleLongLineReachesTheFeedAndStops) {
     const auto out = plan_path(path_machine(), {path_line_to(100, 0)});
     ASSERT_EQ(out.size(), 1u);
     EXPECT_EQ(out[0].entry_velocity, 0);
@@ -62,7 +62,7 @@ TEST(LookAheadPlanner, ASingleLongLineRisesToTheFeedAndRests) {
     EXPECT_NEAR(seconds_of(out[0]), 100.0 / 50 + 50.0 / 1000, 1e-12);
 }
 
-TEST(LookAheadPlanner, AShortLineReachesOnlyTheTopOfItsTriangle) {
+TEST(LookAheadPlanner, AShortLineReachesOnlyThePeakOfItsTriangle) {
     const auto out = plan_path(path_machine(), {path_line_to(0.9, 0)});
     EXPECT_DOUBLE_EQ(out[0].cruise_velocity, 30);
     EXPECT_NEAR(seconds_of(out[0]), 2 * 30.0 / 1000, 1e-12);
@@ -132,7 +132,7 @@ TEST(LookAheadPlanner, ExactPathStopsAtACornerAndPassesATangentJunction) {
     EXPECT_EQ(out[2].entry_velocity, 0);
 }
 
-TEST(LookAheadPlanner, ExactPathSeesAHundredthOfADegree) {
+TEST(LookAheadPlanner, ExactPathDetectsACornerOfAHundredthOfADegree) {
     const double beyond = 0.02 * 0.017453292519943295;
     const double within = 0.005 * 0.017453292519943295;
     EXPECT_EQ(plan_path(path_machine(), {path_line_to(20, 0), path_line_to(40, 20 * beyond)})[0].exit_velocity, 0);
@@ -176,7 +176,7 @@ TEST(LookAheadPlanner, StopsWhereThePathReverses) {
     EXPECT_EQ(plan_path(path_machine(), {first, path_line_to(0, 0)})[0].exit_velocity, 0);
 }
 
-TEST(LookAheadPlanner, XyzAndRotaryMovesMeetAtRest) {
+TEST(LookAheadPlanner, XyzAndRotaryMovesMeetAtStandstill) {
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 100;
     Move second = first;
@@ -184,7 +184,7 @@ TEST(LookAheadPlanner, XyzAndRotaryMovesMeetAtRest) {
     EXPECT_EQ(plan_path(path_machine(), {first, second})[0].exit_velocity, 0);
 }
 
-TEST(LookAheadPlanner, ALineIntoATangentArcKeepsThePullOfTheArc) {
+TEST(LookAheadPlanner, ALineIntoATangentArcKeepsTheCentripetalLimitOfTheArc) {
     Move arc = path_line_to(30, 10);
     arc.kind = MoveKind::arc;
     arc.turns = 1;
@@ -200,7 +200,7 @@ TEST(LookAheadPlanner, ALineIntoATangentArcKeepsThePullOfTheArc) {
                 1e-9);
 }
 
-TEST(LookAheadPlanner, ASteepHelixIsPulledLessThanItsCircle) {
+TEST(LookAheadPlanner, ASteepHelixHasLessCentripetalAccelerationThanItsCircle) {
     Move helix = path_line_to(0.1, 0, 0.2 * 3.14159265358979323846);
     helix.kind = MoveKind::arc;
     helix.turns = 1;
@@ -213,7 +213,7 @@ TEST(LookAheadPlanner, ASteepHelixIsPulledLessThanItsCircle) {
     EXPECT_NEAR(along.accel, 0.4 * 600 / std::sqrt(0.5), 1e-9);
 }
 
-TEST(LookAheadPlanner, ACurveOfShortLinesIsNotFasterThanTheArcItStandsFor) {
+TEST(LookAheadPlanner, ShortLinesOnAnArcAreNotFasterThanTheArc) {
     MachineLimits limits = path_machine();
     for (AxisLimits& axis : limits) {
         axis.max_velocity_step = 1000;
@@ -245,7 +245,7 @@ TEST(LookAheadPlanner, TwoThousandShortCollinearLinesReachTheFullFeed) {
     EXPECT_NEAR(seconds, 20.0 / 100 + 100.0 / 1000, 1e-9);
 }
 
-TEST(LookAheadPlanner, ADwellEndsTheWindowAtRest) {
+TEST(LookAheadPlanner, ADwellEndsTheWindowAtStandstill) {
     Move dwell;
     dwell.kind = MoveKind::dwell;
     dwell.seconds = 0.25;
@@ -266,13 +266,13 @@ TEST(LookAheadPlanner, ADwellEndsTheWindowAtRest) {
     EXPECT_DOUBLE_EQ(summary.peak_velocity, 50);
 }
 
-TEST(LookAheadPlanner, MovesOfNoLengthAreLeftOut) {
+TEST(LookAheadPlanner, MovesWithoutLengthAreSkipped) {
     const auto out = plan_path(path_machine(), {path_line_to(20, 0), path_line_to(20, 0), path_line_to(40, 0)});
     ASSERT_EQ(out.size(), 2u);
     EXPECT_DOUBLE_EQ(out[0].exit_velocity, 50);
 }
 
-TEST(LookAheadPlanner, JerkIsGivenOnlyToStraightMovesFromRestToRest) {
+TEST(LookAheadPlanner, LimitsJerkOnlyOfStraightMovesFromStandstillToStandstill) {
     MachineLimits limits = path_machine();
     for (AxisLimits& axis : limits) axis.max_jerk = 50'000;
     const auto out = plan_path(limits, {path_line_to(30, 40), path_line_to(60, 80), path_line_to(60, 100)});
@@ -319,7 +319,7 @@ class SpendsAll : public DriveConstraints {
     double constant_velocity_length(const Geometry& path) const override { return path.length; }
 };
 
-TEST(LookAheadPlanner, GivesAMoveThatTheHardwareSpendsAVelocityAndATime) {
+TEST(LookAheadPlanner, PlansAFiniteDurationIfTheConstantVelocityLengthIsTheWholeMove) {
     const SpendsAll rule;
     LookAheadPlanner planner(path_machine(), Point{}, {16, &rule});
     ASSERT_TRUE(planner.push(path_line_to(0.0025, 0)));
@@ -342,7 +342,7 @@ class QuickerBehindTheCorner : public DriveConstraints {
     }
 };
 
-TEST(LookAheadPlanner, SlowsDownToTheRateThatTheHardwareHasBehindACorner) {
+TEST(LookAheadPlanner, DeceleratesToTheRateOfTheHardwareBehindACorner) {
     const QuickerBehindTheCorner rule;
     Move before = path_line_to(20.2, 0, 0, 50, PathControl::continuous);
     before.tolerance_mm = 100;
@@ -356,7 +356,7 @@ TEST(LookAheadPlanner, SlowsDownToTheRateThatTheHardwareHasBehindACorner) {
     EXPECT_LT(out[1].entry_velocity, 50);
 }
 
-TEST(LookAheadPlanner, HandsMovesOutBeforeTheEndOfTheProgram) {
+TEST(LookAheadPlanner, DeliversMovesBeforeTheEndOfTheProgram) {
     LookAheadPlanner planner(path_machine(), Point{}, {16});
     PlannedMove planned;
     int pulled = 0;

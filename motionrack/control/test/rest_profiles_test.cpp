@@ -42,7 +42,7 @@ void near_velocity(double got, double expected, double velocity, double accel, d
     near(got, expected, velocity + 1e-4 * accel * duration);
 }
 
-TEST(TrapezoidalProfile, ALongWayHasAllThreePhases) {
+TEST(TrapezoidalProfile, ALongDistanceHasAllThreePhases) {
     const TrapezoidalProfile p(100, 20, 50);
     EXPECT_DOUBLE_EQ(p.peak(), 20);
     EXPECT_DOUBLE_EQ(p.duration(), 100.0 / 20 + 20.0 / 50);
@@ -57,7 +57,7 @@ TEST(TrapezoidalProfile, ALongWayHasAllThreePhases) {
     EXPECT_DOUBLE_EQ(p.sample(5.2).accel, -50);
 }
 
-TEST(TrapezoidalProfile, AShortWayIsATriangle) {
+TEST(TrapezoidalProfile, AShortDistanceIsATriangle) {
     const TrapezoidalProfile p(2, 20, 50);
     EXPECT_DOUBLE_EQ(p.peak(), 10);
     EXPECT_DOUBLE_EQ(p.duration(), 0.4);
@@ -72,7 +72,7 @@ TEST(TrapezoidalProfile, ZeroDistanceTakesNoTime) {
     EXPECT_EQ(SCurveProfile(0, 1, 1, 1).sample(1).position, 0);
 }
 
-TEST(TrapezoidalProfile, BetweenVelocitiesItJoinsThem) {
+TEST(TrapezoidalProfile, ConnectsEntryAndExitVelocity) {
     const TrapezoidalProfile p(10, 5, 15, 20, 50);
     EXPECT_EQ(p.entry(), 5);
     EXPECT_EQ(p.exit(), 15);
@@ -83,7 +83,7 @@ TEST(TrapezoidalProfile, BetweenVelocitiesItJoinsThem) {
     EXPECT_DOUBLE_EQ(p.sample(p.duration()).velocity, 15);
 }
 
-TEST(TrapezoidalProfile, ReachesTheNearestVelocityWhereTheWayIsTooShort) {
+TEST(TrapezoidalProfile, ReachesTheNearestExitVelocityIfTheDistanceIsTooShort) {
     const TrapezoidalProfile up(1, 3, 100, 100, 8);
     EXPECT_DOUBLE_EQ(up.exit(), 5);
     EXPECT_DOUBLE_EQ(up.duration(), 0.25);
@@ -146,7 +146,7 @@ RC_GTEST_PROP(TrapezoidLaws, NoOtherPeakVelocityIsQuicker, ()) {
     RC_ASSERT(p.duration() <= min_duration * (1 + 1e-9) + 1e-15 * l.velocity / l.accel);
 }
 
-TEST(SCurveProfile, ALongWayHasAllSevenPhases) {
+TEST(SCurveProfile, ALongDistanceHasAllSevenPhases) {
     const SCurveProfile p(100, 20, 50, 500);
     EXPECT_DOUBLE_EQ(p.peak(), 20);
     EXPECT_DOUBLE_EQ(p.peak_accel(), 50);
@@ -166,7 +166,7 @@ TEST(SCurveProfile, ALongWayHasAllSevenPhases) {
     EXPECT_DOUBLE_EQ(p.sample(5.45).jerk, 500);
 }
 
-TEST(SCurveProfile, TheShortCasesAreThoseOfTheBooks) {
+TEST(SCurveProfile, ShortDistancesMatchTheTextbookCases) {
     // full acceleration, not full velocity: v^2 / a + v a / j = d with a 50, j 500 and v 10 gives d 3
     const SCurveProfile no_cruise(3, 20, 50, 500);
     EXPECT_DOUBLE_EQ(no_cruise.peak(), 10);

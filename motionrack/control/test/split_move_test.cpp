@@ -28,7 +28,7 @@ Move helix(double turn, double z, bool counter_clockwise = true) {
 
 constexpr Point at_ten = {10, 0, 0, 0, 0, 0};
 
-TEST(PartsOfAMove, FollowEachOtherAlongItsPathToItsVeryEnd) {
+TEST(SubMoves, CoverItsPathContiguouslyToItsEnd) {
     for (const Move& whole : {straight_to(3, -4, 77), helix(0.6, 5), helix(0.6, 5, false), helix(1, 0)}) {
         const Geometry path = geometry_of(whole, at_ten);
         Point at = at_ten;
@@ -50,7 +50,7 @@ TEST(PartsOfAMove, FollowEachOtherAlongItsPathToItsVeryEnd) {
     }
 }
 
-TEST(PartsOfAMove, InInverseTimeTakeTheirShareOfIt) {
+TEST(SubMoves, InInverseTimeTakeTheirShareOfTheTime) {
     Move whole = straight_to(0, 0);
     whole.feed_mode = FeedMode::inverse_time;
     whole.feed = 0.5;  // 2 s
@@ -59,7 +59,7 @@ TEST(PartsOfAMove, InInverseTimeTakeTheirShareOfIt) {
     EXPECT_DOUBLE_EQ(remaining_move(whole, path, {2.5, 0, 0, 0, 0, 0}).feed, 2);
 }
 
-TEST(RestOfAMove, ContinuesFromAPositionBesideThePath) {
+TEST(RemainingMove, ContinuesFromAPositionBesideThePath) {
     for (const Move& whole : {helix(0.3, 0), helix(0.3, 0, false), helix(0.3, 2)}) {
         const Geometry path = geometry_of(whole, at_ten);
         for (double part = 0; part < 0.999; part += 0.1) {
@@ -74,7 +74,7 @@ TEST(RestOfAMove, ContinuesFromAPositionBesideThePath) {
     }
 }
 
-TEST(RestOfAMove, OfASteepHelixIsFoundByItsHeight) {
+TEST(RemainingMove, OnASteepHelixIsFoundByItsHeight) {
     const PulsesPerUnit pulses = {2560, 2560, 2560, 0, 0, 0};
     for (const double turn : {0.00001, 0.001, 0.99}) {
         const Move whole = helix(turn, 1);
@@ -95,7 +95,7 @@ TEST(RestOfAMove, OfASteepHelixIsFoundByItsHeight) {
     }
 }
 
-TEST(RestOfAMove, OfAFlatHelixIsFoundByItsAngle) {
+TEST(RemainingMove, OnAFlatHelixIsFoundByItsAngle) {
     const PulsesPerUnit pulses = {640, 640, 640, 0, 0, 0};
     for (const double turn : {0.3, 0.99, 1.0}) {
         const Move whole = helix(turn, 0.002);  // a pulse
@@ -111,7 +111,7 @@ TEST(RestOfAMove, OfAFlatHelixIsFoundByItsAngle) {
     }
 }
 
-TEST(RestOfAMove, ThatIsPastItsEndIsAStraightWayBackAndNoWholeTurn) {
+TEST(RemainingMove, PastItsEndIsAStraightLineBackInsteadOfAFullTurn) {
     const Move whole = helix(0.25, 0);
     const Geometry path = geometry_of(whole, at_ten);
     const Geometry rest = geometry_of(remaining_move(whole, path, {-0.001, 10, 0, 0, 0, 0}), {-0.001, 10, 0, 0, 0, 0});
@@ -119,7 +119,7 @@ TEST(RestOfAMove, ThatIsPastItsEndIsAStraightWayBackAndNoWholeTurn) {
     EXPECT_LT(rest.length, 0.0011);
 }
 
-TEST(PlaceOnAPath, OfRotaryAxesAloneIsFoundToo) {
+TEST(NearestPointOnPath, OfRotaryAxesAloneIsFound) {
     Move whole = straight_to(10, 0, 90);
     const Geometry path = geometry_of(whole, at_ten);
     EXPECT_EQ(path.shape, PathShape::rotary);
@@ -128,7 +128,7 @@ TEST(PlaceOnAPath, OfRotaryAxesAloneIsFoundToo) {
     EXPECT_NEAR(nearest_point(path, {9.5, 0, 0, 30, 0, 0}).distance, 0.5, 1e-9);
 }
 
-TEST(PlaceOnAPath, CountsEachAxisInItsPulses) {
+TEST(NearestPointOnPath, WeighsEachAxisInItsPulses) {
     const Geometry path = geometry_of(straight_to(20, 0, 90), at_ten);
     const PulsesPerUnit pulses = {640, 640, 640, 10, 0, 0};
     const Point half_way = {15, 0, 0, 45, 0, 0}, turned_wrong = {15, 0, 0, 47, 0, 0}, beside = {15, 0, 0.5, 45, 7, 0};

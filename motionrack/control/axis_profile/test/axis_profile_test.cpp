@@ -26,7 +26,7 @@ KinematicState state_at(const AxisProfile& travel, double t) {
     return {s.position, s.velocity, s.accel};
 }
 
-TEST(AxisProfile, FromRestToRestIsTheSCurve) {
+TEST(AxisProfile, FromStandstillToStandstillIsTheSCurve) {
     Tasks tasks(1);
     for (int i = 0; i < 3000; ++i) {
         const double velocity = std::fabs(tasks.of_magnitude(1e-2, 1e3)),
@@ -51,7 +51,7 @@ TEST(AxisProfile, KeepsItsLimitsHasNoStepsAndEndsExactly) {
     }
 }
 
-TEST(AxisProfile, IsNeverSlowerThanTheRefereesBest) {
+TEST(AxisProfile, IsNeverSlowerThanTheReferenceSolution) {
     Tasks tasks(3);
     int equal = 0;
     constexpr int count = 8000;
@@ -64,7 +64,7 @@ TEST(AxisProfile, IsNeverSlowerThanTheRefereesBest) {
     EXPECT_GE(equal, count - count / 100);
 }
 
-TEST(AxisProfile, IsNeverSlowerThanAMotionThatHappensToEndThere) {
+TEST(AxisProfile, IsNeverSlowerThanARandomMotionToTheSameEnd) {
     Tasks tasks(4);
     for (int i = 0; i < 100'000; ++i) {
         Task t;
@@ -75,7 +75,7 @@ TEST(AxisProfile, IsNeverSlowerThanAMotionThatHappensToEndThere) {
     }
 }
 
-TEST(AxisProfile, ReplannedOnTheWayTakesTheRemainingTime) {
+TEST(AxisProfile, ReplannedDuringTheMotionTakesTheRemainingTime) {
     Tasks tasks(5);
     for (int i = 0; i < 20'000; ++i) {
         Task t = tasks.usual();
@@ -115,7 +115,7 @@ TEST(AxisProfile, MirroredTakesTheSameTime) {
     }
 }
 
-TEST(AxisProfile, ToWhereItStandsTakesNoTime) {
+TEST(AxisProfile, ToTheCurrentPositionTakesNoTime) {
     Tasks tasks(7);
     for (int i = 0; i < 2000; ++i) {
         Task t = tasks.usual();
@@ -148,7 +148,7 @@ TEST(AxisProfile, StartsAndEndsAtItsLimits) {
                     }
 }
 
-TEST(AxisProfile, TakesLimitsThatAreAMillionTimesApart) {
+TEST(AxisProfile, AcceptsLimitsAMillionTimesApart) {
     Tasks tasks(8);
     for (const double velocity : {1e-6, 1.0, 1e6})
         for (const double accel : {1e-6, 1.0, 1e6})
@@ -167,7 +167,7 @@ TEST(AxisProfile, TakesLimitsThatAreAMillionTimesApart) {
                     }
 }
 
-TEST(AxisProfile, ThatMustTurnBackDoes) {
+TEST(AxisProfile, ReversesIfItMust) {
     // at full velocity past a position just ahead: it overshoots, returns and stops
     const KinematicLimits limits = {10, 20, 100};
     const auto out = time_optimal_profile({0, 10, 0}, {1, 0, 0}, limits);
@@ -177,7 +177,7 @@ TEST(AxisProfile, ThatMustTurnBackDoes) {
     EXPECT_EQ(out->sample(out->duration()).position, 1);
 }
 
-TEST(AxisProfile, FromOutsideIsWithinAsSoonAsItCanAndQuickestFromThere) {
+TEST(AxisProfile, FromOutsideReturnsWithinTheLimitsAndIsTimeOptimalFromThere) {
     Tasks tasks(9);
     for (int i = 0; i < 3000; ++i) {
         Task t = tasks.outside();
@@ -200,7 +200,7 @@ TEST(AxisProfile, FromOutsideIsWithinAsSoonAsItCanAndQuickestFromThere) {
     }
 }
 
-TEST(AxisProfile, IsRefusedToATargetThatCannotBeKept) {
+TEST(AxisProfile, IsRejectedForAnInfeasibleEndState) {
     const KinematicLimits limits = {2, 4, 8};
     EXPECT_TRUE(time_optimal_profile({}, {1, 2, 0}, limits));
     EXPECT_TRUE(time_optimal_profile({}, {1, 1, 4}, limits));
@@ -213,7 +213,7 @@ TEST(AxisProfile, IsRefusedToATargetThatCannotBeKept) {
     EXPECT_FALSE(is_feasible_end(-1.001, 4, limits));
 }
 
-TEST(AxisProfile, IsRefusedForNotANumber) {
+TEST(AxisProfile, IsRejectedForNotANumber) {
     const KinematicLimits limits = {2, 4, 8};
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         for (const KinematicState& state :
@@ -235,7 +235,7 @@ TEST(AxisProfile, IsRefusedForNotANumber) {
             EXPECT_FALSE(time_optimal_profile({}, {1}, of_none));
 }
 
-TEST(ChangeOfVelocity, HoldsItsLimitsAndEndsExactly) {
+TEST(VelocityChangeProfile, HoldsItsLimitsAndEndsExactly) {
     Tasks tasks(10);
     for (int i = 0; i < 20'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
@@ -246,7 +246,7 @@ TEST(ChangeOfVelocity, HoldsItsLimitsAndEndsExactly) {
     }
 }
 
-TEST(ChangeOfVelocity, IsTheQuickestOfAllTravelsToItsVelocity) {
+TEST(VelocityChangeProfile, IsTheFastestOfAllProfilesToItsVelocity) {
     Tasks tasks(11);
     for (int i = 0; i < 40'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
@@ -262,7 +262,7 @@ TEST(ChangeOfVelocity, IsTheQuickestOfAllTravelsToItsVelocity) {
 }
 
 /// A profile to the final position of a velocity change takes no longer, so it is never faster than that change.
-TEST(ChangeOfVelocity, EqualsTheProfileToItsEndPosition) {
+TEST(VelocityChangeProfile, EqualsTheProfileToItsEndPosition) {
     Tasks tasks(12);
     for (int i = 0; i < 20'000; ++i) {
         Task t = i % 2 ? tasks.usual() : tasks.any();
@@ -272,7 +272,7 @@ TEST(ChangeOfVelocity, EqualsTheProfileToItsEndPosition) {
     }
 }
 
-TEST(StopProfile, EndsAtRestAndIsTheChangeOfVelocityToIt) {
+TEST(StopProfile, EndsAtStandstillAndEqualsTheVelocityChangeToZero) {
     Tasks tasks(13);
     for (int i = 0; i < 5000; ++i) {
         const Task t = tasks.outside();

@@ -58,7 +58,7 @@ unsigned chosen(const ChoiceRow& row) {
     return stops;
 }
 
-TEST(JunctionPlanner, ChoosesTheQuickestOfAllSequences) {
+TEST(JunctionPlanner, ChoosesTheFastestOfAllSequences) {
     for (unsigned seed = 1; seed <= 300; ++seed) {
         const ChoiceRow row = random_row(seed, 1 + seed % 9);
         double min_seconds = std::numeric_limits<double>::infinity();
@@ -68,7 +68,7 @@ TEST(JunctionPlanner, ChoosesTheQuickestOfAllSequences) {
     }
 }
 
-TEST(JunctionPlanner, DecidesALongSequenceWithoutItsEnd) {
+TEST(JunctionPlanner, DecidesTheBeginningOfALongSequenceBeforeItsEndIsKnown) {
     for (unsigned seed = 1; seed <= 20; ++seed) chosen(random_row(seed, 30));
 }
 

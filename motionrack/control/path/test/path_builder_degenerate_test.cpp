@@ -51,7 +51,7 @@ bool finite(const Point& p) {
     return sum == 0;
 }
 
-TEST(CurveOfAnything, IsFiniteContinuesAndEndsWhereTheProgramDoes) {
+TEST(RandomPath, IsFiniteContinuousAndEndsAtTheEndOfTheProgram) {
     for (std::uint64_t seed = 1; seed <= 3000; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         ProgramMaker maker(seed);

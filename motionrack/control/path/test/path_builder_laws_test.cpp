@@ -56,7 +56,7 @@ void for_random_programs(Check check) {
 /// Some program uses more than this share of its tolerance, or the law says nothing.
 constexpr double used_share = 0.5;
 
-TEST(CurveLaws, PositionTangentAndCurvatureAreContinuousAtJunctions) {
+TEST(PathLaws, PositionTangentAndCurvatureAreContinuousAtJunctions) {
     for_random_programs([](const Case& one) {
         const CubicSegment* last = nullptr;
         for (const PathElement& item : one.items) {
@@ -84,7 +84,7 @@ bool same(const PathElement& a, const PathElement& b) {
            p.curvature == q.curvature && p.curvature_rate == q.curvature_rate && p.line == q.line && p.feed == q.feed;
 }
 
-TEST(CurveLaws, PiecesAreTheSameWheneverTheyArePulled) {
+TEST(PathLaws, SegmentsAreTheSameWheneverTheyAreFetched) {
     for_random_programs([](const Case& one) {
         ProgramMaker chance(one.seed);
         PathBuilder builder(machine(), Point{});
@@ -111,7 +111,7 @@ TEST(CurveLaws, PiecesAreTheSameWheneverTheyArePulled) {
     });
 }
 
-TEST(CurveLaws, AMoveMakesFewPieces) {
+TEST(PathLaws, AMoveMakesFewSegments) {
     for_random_programs([](const Case& one) {
         std::vector<int> count(one.moves.size() + 1);
         for (const CubicSegment& piece : pieces_of(one.items)) ++count[static_cast<std::size_t>(piece.line)];
@@ -124,7 +124,7 @@ TEST(CurveLaws, AMoveMakesFewPieces) {
     });
 }
 
-TEST(CurveLaws, CurvesBeginAndEndWhereTheProgramDoes) {
+TEST(PathLaws, PathsStartAndEndAtTheEndsOfTheProgram) {
     for_random_programs([](const Case& one) {
         Point at = {};
         const CubicSegment* last = nullptr;
@@ -154,7 +154,7 @@ double programmed(const Move& move, const Geometry& path) {
     return move.feed * (path.length + 4e-6);  // includes skipped moves before it
 }
 
-TEST(CurveLaws, TheProgrammedFeedIsNeverExceeded) {
+TEST(PathLaws, TheProgrammedFeedIsNeverExceeded) {
     for_random_programs([](const Case& one) {
         const std::vector<Geometry> paths = paths_of(one.moves);
         for (const CubicSegment& piece : pieces_of(one.items)) {
@@ -176,7 +176,7 @@ TEST(CurveLaws, TheProgrammedFeedIsNeverExceeded) {
     });
 }
 
-TEST(CurveLaws, TheCurveStaysWithinTheToleranceOfThePath) {
+TEST(PathLaws, ThePathStaysWithinTheTolerance) {
     double max_error = 0;
     const auto shown = [&max_error] { return max_error > used_share; };
     for_programs(1000, shown, [&max_error](const Case& one) {
@@ -225,7 +225,7 @@ double part_of_tolerances(const Geometry& line, const Point& at, double toleranc
     return part(low);
 }
 
-TEST(CurveLaws, RotaryAxesStayWithinTheirToleranceAtTheSamePosition) {
+TEST(PathLaws, RotaryAxesStayWithinTheirToleranceAtTheSamePosition) {
     double max_error = 0;
     const auto shown = [&max_error] { return max_error > used_share; };
     for_programs(300, shown, [&max_error](const Case& one) {

@@ -54,7 +54,7 @@ double max_distance(const std::vector<CubicSegment>& pieces, const std::vector<G
     return max;
 }
 
-TEST(Curve, OfALineIsOnePieceAndARest) {
+TEST(PathBuilderTest, OfALineIsOneSegmentAndAStop) {
     const auto items = curve_of(numbered({line_to({3, 4, 0, 10, 0, 0})}));
     ASSERT_EQ(items.size(), 2u);
     const CubicSegment& piece = items[0].piece;
@@ -69,12 +69,12 @@ TEST(Curve, OfALineIsOnePieceAndARest) {
     EXPECT_EQ(items[1].seconds, 0);
 }
 
-TEST(Curve, OfNothingIsNothing) {
+TEST(PathBuilderTest, OfNoMovesIsEmpty) {
     EXPECT_TRUE(curve_of({}).empty());
     EXPECT_TRUE(curve_of(numbered({line_to({}), line_to({})})).empty());
 }
 
-TEST(Curve, RoundsACornerByItsTolerance) {
+TEST(PathBuilderTest, RoundsACornerByItsTolerance) {
     const double tolerance = 0.05;
     std::vector<Move> moves = numbered({line_to({20, 0, 0}, tolerance), line_to({20, 20, 0}, tolerance)});
     for (Move& move : moves) move.feed = 5;
@@ -89,7 +89,7 @@ TEST(Curve, RoundsACornerByItsTolerance) {
     EXPECT_NEAR(max_distance(pieces, paths_of(moves)), 0.996 * tolerance / std::sqrt(2.0), 1e-6);
 }
 
-TEST(Curve, StopsWhereTheProgramRequiresIt) {
+TEST(PathBuilderTest, StopsWhereTheProgramRequiresIt) {
     const Point a = {10, 0, 0}, b = {10, 10, 0};
     EXPECT_EQ(rests({slow(line_to(a)), slow(line_to(b))}), 1);
     EXPECT_EQ(rests({line_to(a), line_to(b)}), 2);  // at this feed rate the stop is faster than the slow detour
@@ -110,7 +110,7 @@ TEST(Curve, StopsWhereTheProgramRequiresIt) {
     EXPECT_EQ(items[3].piece.begin, 0);
 }
 
-TEST(Curve, RestsWhereThePathTurnsByMoreThan120Degrees) {
+TEST(PathBuilderTest, StopsAtCornersAbove120Degrees) {
     for (const double degrees : {100.0, 119.0, 121.0, 180.0}) {
         const SinCos out = sin_cos(degrees * pi / 180);
         EXPECT_EQ(rests({slow(line_to({10, 0, 0})), slow(line_to({10 + 10 * out.cos, 10 * out.sin, 0}))}),
@@ -120,13 +120,13 @@ TEST(Curve, RestsWhereThePathTurnsByMoreThan120Degrees) {
     EXPECT_EQ(rests({line_to({0, 0, 0, 90, 0, 0}), line_to({0, 0, 0, 0, 0, 0})}), 2);
 }
 
-TEST(Curve, RestsBetweenLinearAxesAndRotaryAxesAlone) {
+TEST(PathBuilderTest, StopsBetweenMovesOfLinearAxesAndOfRotaryAxesAlone) {
     EXPECT_EQ(rests({line_to({10, 0, 0}), line_to({10, 0, 0, 90, 0, 0}), line_to({10, 0, 0, 180, 0, 0}),
                      line_to({20, 0, 0, 180, 0, 0})}),
               3);
 }
 
-TEST(Curve, PassesTangentJoinsWithoutARest) {
+TEST(PathBuilderTest, PassesTangentJunctionsWithoutAStop) {
     for (const bool stay : {false, true}) {
         std::vector<Move> moves = {line_to({10, 0, 0})};
         moves.push_back(arc_from(end_of(moves), 0, 5, 1.5));
@@ -142,7 +142,7 @@ TEST(Curve, PassesTangentJoinsWithoutARest) {
     }
 }
 
-TEST(Curve, OfDenseChordsIsAlmostTheArcTheyAreOn) {
+TEST(PathBuilderTest, OfDenseChordsIsNearlyTheirArc) {
     for (const double step : {0.02, 0.1, 0.3}) {
         std::vector<Move> moves;
         const double radius = 10;
@@ -163,20 +163,20 @@ TEST(Curve, OfDenseChordsIsAlmostTheArcTheyAreOn) {
     }
 }
 
-TEST(Curve, MergesNoisyChordsOfALine) {
+TEST(PathBuilderTest, MergesNoisyChordsOfALine) {
     std::vector<Move> moves;
     for (int i = 1; i <= 1000; ++i) moves.push_back(line_to({0.05 * i, i % 3 * 0.0005, 0}));
     const auto pieces = pieces_of(curve_of(numbered(moves)));
     EXPECT_LT(pieces.size(), 3u * 1000 / 30);
 }
 
-TEST(Curve, DoesNotMergeWhatTurnsBack) {
+TEST(PathBuilderTest, DoesNotMergeReversals) {
     std::vector<Move> moves;
     for (int i = 1; i <= 50; ++i) moves.push_back(line_to({i % 2 == 0 ? 0.5 * i : 0.5 * i + 1, 0, 0}));
     EXPECT_EQ(rests(moves), 50);
 }
 
-TEST(Curve, KeepsRotaryAxesInProportionToTheWay) {
+TEST(PathBuilderTest, KeepsRotaryAxesInProportionToTheDistance) {
     std::vector<Move> moves;
     for (int i = 1; i <= 100; ++i) moves.push_back(line_to({0.1 * i, 0, 0, i < 50 ? 0 : 0.2 * (i - 49), 0, 0}));
     const auto pieces = pieces_of(curve_of(numbered(moves)));
@@ -187,7 +187,7 @@ TEST(Curve, KeepsRotaryAxesInProportionToTheWay) {
     }
 }
 
-TEST(Curve, OfAnArcHasItsCurvatureAndNoMoreThanAThirteenthMoreAtItsJunctions) {
+TEST(PathBuilderTest, OfAnArcHasItsCurvatureAndNoMoreThanAThirteenthMoreAtItsJunctions) {
     for (const double tolerance : {half_pulse, 0.01, 0.1})
         for (const double radius : {0.5, 10.0, 300.0})
             for (const double sweep : {0.3, 2.0, 6.0, 50.0}) {
@@ -205,7 +205,7 @@ TEST(Curve, OfAnArcHasItsCurvatureAndNoMoreThanAThirteenthMoreAtItsJunctions) {
             }
 }
 
-TEST(Curve, BeginsAnArcFromRestWithItsFullBend) {
+TEST(PathBuilderTest, StartsAnArcFromStandstillWithItsFullCurvature) {
     const std::vector<Move> moves = numbered({arc_from({}, 0.3, 10, 2 * pi)});
     const auto pieces = pieces_of(curve_of(moves));
     ASSERT_FALSE(pieces.empty());
@@ -215,7 +215,7 @@ TEST(Curve, BeginsAnArcFromRestWithItsFullBend) {
     EXPECT_LT(max_distance(pieces, paths_of(moves)), 0.1 * 0.01 * 1.2);
 }
 
-TEST(Curve, OfAHelixOfManyTurnsStaysOnIt) {
+TEST(PathBuilderTest, OfAHelixOfManyTurnsStaysOnIt) {
     Move move = arc_from({}, 0, 3, 40 * pi + 1);
     move.end[2] = 20;
     move.end[5] = 720;
@@ -225,13 +225,13 @@ TEST(Curve, OfAHelixOfManyTurnsStaysOnIt) {
     for (const CubicSegment& piece : pieces) EXPECT_NEAR(piece.start[5], piece.start[2] * 36, 1e-6);
 }
 
-TEST(Curve, TakesAnArcTooSmallOrTooShallowToBeSeenForALine) {
+TEST(PathBuilderTest, ReplacesArcsBelowTheResolutionByLines) {
     EXPECT_EQ(pieces_of(curve_of(numbered({arc_from({}, 0, 1e-5, 4)}))).size(), 1u);
     EXPECT_EQ(pieces_of(curve_of(numbered({arc_from({}, 0, 1e6, 1e-6)}))).size(), 1u);
     EXPECT_TRUE(curve_of(numbered({arc_from({}, 0, 1e-5, 2 * pi)})).empty());
 }
 
-TEST(Curve, LeavesOutMovesThatAreTooShortButEndsWhereTheyDo) {
+TEST(PathBuilderTest, SkipsTooShortMovesButKeepsTheirEndPoint) {
     std::vector<Move> moves;
     Point at = {};
     for (int i = 0; i < 1000; ++i) at[0] += 1e-9 * (i % 7), at[1] += 5e-10, moves.push_back(line_to(at));
@@ -246,7 +246,7 @@ TEST(Curve, LeavesOutMovesThatAreTooShortButEndsWhereTheyDo) {
 }
 
 /// Also near corners and junctions each feed rate applies to its own move, whatever the neighbours have.
-TEST(Curve, FeedsAreThoseOfTheProgram) {
+TEST(PathBuilderTest, FeedsAreThoseOfTheProgram) {
     std::vector<Move> moves = {line_to({10, 0, 0}), line_to({20, 1, 0}), line_to({30, 1, 0}), line_to({40, 0, 0})};
     moves[1].feed = 20;
     moves[2].kind = MoveKind::rapid;
@@ -267,7 +267,7 @@ TEST(Curve, FeedsAreThoseOfTheProgram) {
     EXPECT_EQ(of, 4u);
 }
 
-TEST(Curve, EndsAtRestWheneverItIsFlushed) {
+TEST(PathBuilderTest, EndsWithAStopWheneverItIsFlushed) {
     PathBuilder builder(machine(), Point{});
     PathElement item;
     Point at = {};
@@ -286,7 +286,7 @@ TEST(Curve, EndsAtRestWheneverItIsFlushed) {
 }
 
 /// Hashes the bits of all segments; the number was the same with g++ and clang++ at -O0, -O2 and -O3.
-TEST(Curve, BitsAreTheSameOnEveryCompilerAndCpu) {
+TEST(PathBuilderTest, BitsAreTheSameOnEveryCompilerAndCpu) {
     std::vector<Move> moves;
     double heading = 0;
     for (int i = 0; i < 2000; ++i) {

@@ -16,7 +16,7 @@ double seconds_of(std::span<const ProfileSegment> feed) {
     return seconds;
 }
 
-class LineWithEasedEnds : public testing::Test {
+class LineWithReducedJerk : public testing::Test {
   protected:
     double between(double a, double b) {
         return a * std::exp(std::log(b / a) * std::uniform_real_distribution<>(0, 1)(random_));
@@ -39,7 +39,7 @@ class LineWithEasedEnds : public testing::Test {
     std::mt19937 random_{7};
 };
 
-TEST_F(LineWithEasedEnds, KeepsAllLimitsWithoutStepsAndIsNoSlowerThanByCells) {
+TEST_F(LineWithReducedJerk, KeepsAllLimitsWithoutStepsAndIsNotSlowerThanByCells) {
     int written = 0;
     for (int n = 0; n < 2000; ++n) {
         SCOPED_TRACE(n);
@@ -77,7 +77,7 @@ TEST_F(LineWithEasedEnds, KeepsAllLimitsWithoutStepsAndIsNoSlowerThanByCells) {
     EXPECT_GT(written, 1000);
 }
 
-TEST(EasedFeed, IsNotWrittenWhereItsEndsAreTooLongOrItsMiddleIsUnlike) {
+TEST(ReducedJerkProfile, IsNotWrittenWhereItsEndsAreTooLongOrItsMiddleIsUnlike) {
     std::vector<ProfileSegment> feed;
     EXPECT_FALSE(write_reduced_jerk_profile(
         std::vector<LimitInterval>{{1, 1, 2000, 20'000}, {1, 1, 2000, 40'000}, {1, 1, 2000, 20'000}}, feed));

@@ -84,7 +84,7 @@ FeedPeaks peaks_of(std::span<const ProfileSegment> pieces, const std::vector<Lim
     return out;
 }
 
-TEST(VelocityPlanner, PlansTheQuickestSCurveForIntervalsThatAreAlike) {
+TEST(VelocityPlanner, PlansTheFastestSCurveForEqualIntervals) {
     VelocityPlanner planner;
     for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001})
         for (const double velocity : {100.0, 5.0}) {
@@ -100,7 +100,7 @@ TEST(VelocityPlanner, PlansTheQuickestSCurveForIntervalsThatAreAlike) {
 }
 
 /// Jerk may last for a distance so short that nearby positions have no digits for it.
-TEST(VelocityPlanner, KeepsTheJerkOfOneIntervalHoweverShortItLasts) {
+TEST(VelocityPlanner, KeepsTheJerkOfAnIntervalHoweverShort) {
     VelocityPlanner planner;
     for (const double jerk : {1e9, 1e12, 1e15}) {
         const std::vector<LimitInterval> intervals = {{92, 50, 1000, jerk}};
@@ -113,7 +113,7 @@ TEST(VelocityPlanner, KeepsTheJerkOfOneIntervalHoweverShortItLasts) {
     }
 }
 
-TEST(VelocityPlanner, IsNearlyAsQuickForIntervalsThatAreNearlyAlike) {
+TEST(VelocityPlanner, IsNearlyAsFastForNearlyEqualIntervals) {
     VelocityPlanner planner;
     for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001}) {
         const std::vector<LimitInterval> intervals = {{0.5 * length, 100, 1000, 20'000},
@@ -139,7 +139,7 @@ TEST(VelocityPlanner, KeepsEveryLimitAtEveryInstant) {
 }
 
 /// Acceleration and deceleration have separate limits.
-TEST(VelocityPlanner, AcceleratesAndDeceleratesEachAsQuicklyAsItMay) {
+TEST(VelocityPlanner, UsesTheFullAccelerationAndDeceleration) {
     VelocityPlanner planner;
     const std::vector<LimitInterval> intervals = {{100, 1e4, 1000, 1e9, 4000}, {100, 1e4, 1000, 1e9, 4000}};
     double up = 0, down = 0;
@@ -154,7 +154,7 @@ TEST(VelocityPlanner, AcceleratesAndDeceleratesEachAsQuicklyAsItMay) {
 }
 
 /// A stop may be faster than passing a slow interval, because it needs no velocity for leaving it.
-TEST(VelocityPlanner, IsQuickerThanStoppingBetweenIntervals) {
+TEST(VelocityPlanner, IsFasterThanStoppingBetweenIntervals) {
     VelocityPlanner planner;
     RandomSpans random(7);
     int slower = 0;
@@ -213,7 +213,7 @@ TEST(VelocityPlanner, DoesNotDependOnEarlierPlans) {
     }
 }
 
-TEST(VelocityPlanner, TakesLimitsOfAnySize) {
+TEST(VelocityPlanner, AcceptsLimitsOfAnySize) {
     VelocityPlanner planner;
     RandomSpans random(11);
     for (int run = 0; run < 2000; ++run) {
@@ -245,7 +245,7 @@ TEST(VelocityPlanner, HasTheSameBitsOnEveryCompilerAndCpu) {
     EXPECT_EQ(fold, 713957576561859831u);
 }
 
-TEST(VelocityPlanner, MakesNoSegmentsOfNothing) {
+TEST(VelocityPlanner, MakesNoSegmentsWithoutIntervals) {
     VelocityPlanner planner;
     EXPECT_TRUE(planner.plan({}).empty());
 }
@@ -275,7 +275,7 @@ std::vector<LimitInterval> intervals_from(const std::vector<LimitInterval>& inte
     return out;
 }
 
-TEST(VelocityPlannerReplan, BeginsAsItWasAndKeepsTheLimits) {
+TEST(VelocityPlannerReplan, StartsFromTheGivenMotionAndKeepsTheLimits) {
     VelocityPlanner planner, on_the_way;
     RandomSpans random(77);
     int steady = 0, steady_found = 0, found = 0, all = 0;
@@ -311,7 +311,7 @@ TEST(VelocityPlannerReplan, BeginsAsItWasAndKeepsTheLimits) {
     EXPECT_GT(found, 0.85 * all);
 }
 
-TEST(VelocityPlannerReplan, IsNotFoundWhereItCannotStopInTime) {
+TEST(VelocityPlannerReplan, FailsIfItCannotStopInTime) {
     VelocityPlanner planner;
     const std::vector<LimitInterval> intervals = {{0.2, 10, 1000, 20'000}};
     EXPECT_TRUE(planner.plan_from({100, 0}, intervals).empty());  // the jerk needs 0.2236 mm
@@ -320,7 +320,7 @@ TEST(VelocityPlannerReplan, IsNotFoundWhereItCannotStopInTime) {
                     .empty());  // above the limit at the start
 }
 
-TEST(Cell, ThatDeceleratesAndAcceleratesAgainTakesItsTime) {
+TEST(Cell, WithAVelocityMinimumInsideHasTheCorrectDuration) {
     const ProfileSegment cell = parabolic_segment(0, 1, 4, -7, 14);  // minimum 2.25 at the middle
     EXPECT_NEAR(cell.at(cell.seconds).u, 1, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).velocity, 2, 1e-9);

@@ -114,7 +114,7 @@ TEST(GcodeReferee, AcceptsEqualCallsAsEqual) {
     EXPECT_FALSE(are_same("", "DWELL(1.0000)\n"));
 }
 
-TEST(GcodeReferee, Rs274MovesAsWeDoInRandomPrograms) {
+TEST(GcodeReferee, Rs274GivesTheSameMovesForRandomPrograms) {
     if (!is_installed()) GTEST_SKIP() << "rs274 is not installed (Debian: linuxcnc-uspace)";
     Folder at;
     EXPECT_TRUE(rc::check([&] {

@@ -5,7 +5,7 @@ namespace motionrack::control::gcode {
 
 using namespace testing::corpus;
 
-TEST(GcodeReferee, Rs274MovesAsWeDoInEveryProgramOfTheCorpus) {
+TEST(GcodeReferee, Rs274GivesTheSameMovesForEveryProgramOfTheCorpus) {
     if (!is_installed()) GTEST_SKIP() << "rs274 is not installed (Debian: linuxcnc-uspace)";
     Folder at;
     for (const auto& entry : std::filesystem::directory_iterator(folder()))

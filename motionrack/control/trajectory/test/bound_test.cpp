@@ -84,7 +84,7 @@ TEST(AccelBound, OfALineIsItsTrapezoid) {
 
 /// No axis can pass the circle faster than sqrt(2 acceleration radius); at sqrt(acceleration radius) both can hold the
 /// velocity.
-TEST(AccelBound, OfACircleIsNearTheVelocityOfItsBend) {
+TEST(AccelBound, OfACircleIsNearTheVelocityOfItsCurvature) {
     const MachineLimits limits = with_jerk(1e6);
     const double seconds = seconds_of(at_feed(circle(0.1), 1e4), limits).bound;
     EXPECT_LT(seconds, 1.02 * (2 * pi * 20 / std::sqrt(2000.0 * 20) + 200.0 / 2000));
@@ -92,7 +92,7 @@ TEST(AccelBound, OfACircleIsNearTheVelocityOfItsBend) {
 }
 
 /// The reference checks both ends of its steps, the bound the middle of its cells: the true value is near both.
-TEST(AccelBound, IsWhatTheRefereeFinds) {
+TEST(AccelBound, EqualsTheReference) {
     const MachineLimits limits = with_jerk(1e6);
     for (const double feed : {100.0, 1000.0})
         for (const double chord : {0.1, 0.25})
@@ -107,7 +107,7 @@ TEST(AccelBound, IsWhatTheRefereeFinds) {
 }
 
 /// Chords that are too long for a smooth curvature bend the curve in steps; there the two differ more.
-TEST(AccelBound, IsNearTheRefereeWhereBendsComeAndGo) {
+TEST(AccelBound, IsNearTheReferenceForChangingCurvature) {
     const MachineLimits limits = with_jerk(1e6);
     for (const double feed : {100.0, 1000.0})
         for (const auto& shape : {circle(1), sine(1), spiral(1)}) {
@@ -117,7 +117,7 @@ TEST(AccelBound, IsNearTheRefereeWhereBendsComeAndGo) {
         }
 }
 
-TEST(AccelBound, IsNoShorterWithTighterLimits) {
+TEST(AccelBound, IsNotShorterWithTighterLimits) {
     MachineLimits limits = machine();
     const std::vector<Move> moves = ProgramMaker(8).program(4);
     double last = 0;
@@ -138,7 +138,7 @@ TEST(AccelBound, HasTheSameBitsOnEveryCompilerAndCpu) {
     EXPECT_EQ(fold, 17139071396192919648u);
 }
 
-TEST(OfflineTrajectory, IsNeverQuickerThanWithAnyJerk) {
+TEST(OfflineTrajectory, IsNeverFasterThanItsLowerBound) {
     for (const double jerk : {1e3, 1e6})
         for (const double chord : {0.1, 0.25, 1.0})
             for (const auto& shape : {circle(chord), sine(chord), spiral(chord)}) {
@@ -162,7 +162,7 @@ struct Nearness {
 /// With a jerk that costs no time. At the feed rate the loss is at the ends and on curves that are tighter than the
 /// feed rate allows. Without it the loss is where the velocity changes on curves, because a limit applies to a part of
 /// the curve at its tightest point. Long chords have an intermittent curvature.
-TEST(OfflineTrajectory, IsNearTheQuickestOnSmoothShapes) {
+TEST(OfflineTrajectory, IsNearItsLowerBoundOnSmoothShapes) {
     const std::vector<Nearness> shapes = {
         {"circle 0.1", circle(0.1), 1.0015, 1.011}, {"circle 0.25", circle(0.25), 1.0015, 1.011},
         {"circle 1", circle(1), 1.001, 1.011},      {"sine 0.1", sine(0.1), 1.008, 1.023},

@@ -49,9 +49,9 @@ std::vector<Move> moves_of(const Row& row, double tolerance) {
     return out;
 }
 
-class RowOfCorners : public testing::TestWithParam<Row> {};
+class CornerSequence : public testing::TestWithParam<Row> {};
 
-TEST_P(RowOfCorners, KeepsEverythingAtEveryInstant) {
+TEST_P(CornerSequence, KeepsLimitsAndToleranceAtEveryInstant) {
     for (const double jerk : jerks)
         for (const double tolerance : tolerances) {
             const trajectory_test::WildProgram program{machine(jerk), {}, moves_of(GetParam(), tolerance)};
@@ -60,7 +60,7 @@ TEST_P(RowOfCorners, KeepsEverythingAtEveryInstant) {
         }
 }
 
-TEST_P(RowOfCorners, IsNoSlowerWithMoreTolerance) {
+TEST_P(CornerSequence, IsNotSlowerWithMoreTolerance) {
     for (const double jerk : jerks) {
         double before = trajectory_test::seconds_stopping(moves_of(GetParam(), 0), machine(jerk));
         for (const double tolerance : tolerances) {
@@ -71,7 +71,7 @@ TEST_P(RowOfCorners, IsNoSlowerWithMoreTolerance) {
     }
 }
 
-TEST_P(RowOfCorners, IsNoSlowerWithMoreJerk) {
+TEST_P(CornerSequence, IsNotSlowerWithMoreJerk) {
     for (const double tolerance : tolerances) {
         double before = std::numeric_limits<double>::infinity();
         for (const double jerk : jerks) {
@@ -82,7 +82,7 @@ TEST_P(RowOfCorners, IsNoSlowerWithMoreJerk) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Rows, RowOfCorners, testing::ValuesIn(rows), [](const auto& row) {
+INSTANTIATE_TEST_SUITE_P(Rows, CornerSequence, testing::ValuesIn(rows), [](const auto& row) {
     std::string name = row.param.name;
     std::replace(name.begin(), name.end(), ' ', '_');
     return name;
@@ -93,7 +93,7 @@ double gain_of(const Row& row, double tolerance, double jerk) {
                    trajectory_test::seconds_stopping(moves_of(row, 0), machine(jerk));
 }
 
-TEST(Corner, GainsMuchWhereAxesTakeTurnsAndAlsoWhereOneKeepsMoving) {
+TEST(Corner, IsFasterThanAStopForAlternatingAxesAndForOneContinuousAxis) {
     EXPECT_GT(gain_of(rows[0], 0.05, 1.6e5), 0.12);
     EXPECT_GT(gain_of(rows[2], 0.2, 4e4), 0.15);
     EXPECT_GT(gain_of(rows[3], 0.02, 4e4), 0.10);

@@ -87,7 +87,7 @@ TEST(OfflineTrajectory, OfAStraightLineIsAnSCurve) {
     EXPECT_EQ(ridden.end[0], 100);
 }
 
-TEST(OfflineTrajectory, GainsWhatTheToleranceOfACornerAllows) {
+TEST(OfflineTrajectory, UsesTheToleranceOfACorner) {
     const double stopping = trajectory_test::seconds_stopping(square_wave(40, 20, 0), machine());
     double last = stopping * 1.015;
     for (const double tolerance : {0.001, 0.01, 0.1}) {
@@ -98,7 +98,7 @@ TEST(OfflineTrajectory, GainsWhatTheToleranceOfACornerAllows) {
     EXPECT_LT(last, 0.9 * stopping);
 }
 
-TEST(OfflineTrajectory, StaysWithinTheToleranceAlsoWhereCornersAreCut) {
+TEST(OfflineTrajectory, StaysWithinTheToleranceAtCorners) {
     for (const double tolerance : {0.001, 0.02, 0.2}) {
         const std::vector<Move> moves = square_wave(8, 10, tolerance);
         const std::vector<Geometry> paths = curve_test::paths_of(moves);
@@ -114,7 +114,7 @@ TEST(OfflineTrajectory, StaysWithinTheToleranceAlsoWhereCornersAreCut) {
     }
 }
 
-TEST(OfflineTrajectory, OfAZigzagIsHardlySlowerThanWithExactStops) {
+TEST(OfflineTrajectory, OfAZigzagIsAtMostSlightlySlowerThanWithExactStops) {
     for (const double tolerance : {0.001, 0.02, 0.1, 1.0})
         for (const double length : {0.5, 5.0, 50.0}) {
             std::vector<Move> moves;
@@ -159,7 +159,7 @@ TEST(OfflineTrajectory, RunsThroughManyChordsAsThroughTheCurve) {
     EXPECT_LE(offline_trajectory(moves).seconds, 1.12 * min_seconds + 0.1);
 }
 
-TEST(OfflineTrajectory, RestsForDwells) {
+TEST(OfflineTrajectory, StandsStillForDwells) {
     Move dwell;
     dwell.kind = MoveKind::dwell;
     dwell.seconds = 0.25;

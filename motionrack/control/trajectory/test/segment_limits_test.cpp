@@ -42,7 +42,7 @@ class RandomPieces {
     std::mt19937 random_{20261123};
 };
 
-TEST(SegmentLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
+TEST(SegmentLimits, KeepEveryAxisWithinItsLimitsOnTheWholeSegment) {
     RandomPieces random;
     for (int run = 0; run < 3000; ++run) {
         const CubicSegment piece = random.next();
@@ -86,7 +86,7 @@ TEST(SegmentLimits, GiveTheReachableVelocityWithTheRemainingAcceleration) {
     EXPECT_GT(looked, 500);
 }
 
-TEST(Parts, OfAPieceAreThePiece) {
+TEST(Parts, OfASegmentMatchTheSegment) {
     RandomPieces random;
     int cut = 0;
     for (int run = 0; run < 500; ++run) {

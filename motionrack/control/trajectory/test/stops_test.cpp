@@ -17,7 +17,7 @@ double times_stopping(const std::vector<Move>& moves) {
     return trajectory_test::trajectory_seconds(moves, machine()) / trajectory_test::seconds_stopping(moves, machine());
 }
 
-TEST(OfflineTrajectoryBesideExactStops, IsSeldomSlower) {
+TEST(OfflineTrajectoryComparedWithExactStops, IsRarelySlower) {
     int slower = 0, tried = 0;
     double max_times = 0;
     for (std::uint64_t seed = 1; seed < 1000; ++seed) {
@@ -36,13 +36,13 @@ TEST(OfflineTrajectoryBesideExactStops, IsSeldomSlower) {
 }
 
 /// Short, long, short, with corners of 40 degrees.
-TEST(OfflineTrajectoryBesideExactStops, IsNotSlowerBetweenShortLines) {
+TEST(OfflineTrajectoryComparedWithExactStops, IsNotSlowerBetweenShortLines) {
     std::vector<Move> moves = {line_to({0.25, 0}, 0.01), line_to({1.35, 0.92}, 0.01), line_to({1.6, 0.92}, 0.01)};
     EXPECT_LE(times_stopping(moves), 1.0);
 }
 
 /// Nearly straight.
-TEST(OfflineTrajectoryBesideExactStops, TakesTheProgrammedTimeInInverseTime) {
+TEST(OfflineTrajectoryComparedWithExactStops, TakesTheProgrammedTimeInInverseTime) {
     std::vector<Move> moves;
     double x = 0, y = 0, heading = 0, programmed = 0;
     for (const double length : {0.043, 0.014, 0.143, 0.014, 0.043}) {

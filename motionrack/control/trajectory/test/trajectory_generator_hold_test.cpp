@@ -85,7 +85,7 @@ std::vector<std::vector<Move>> ways_at(double feed) {
     return out;
 }
 
-TEST(TrajectoryGenerator, StopsAsSoonWhileItDeceleratesForOverrides) {
+TEST(TrajectoryGenerator, StopsAsEarlyWhileDeceleratingForOverrides) {
     for (const std::vector<Move>& way : ways_at(50)) {
         const auto held_after = [&](double feed, double after) {
             Driven driven(way, {});
@@ -108,7 +108,7 @@ TEST(TrajectoryGenerator, StopsAsSoonWhileItDeceleratesForOverrides) {
 
 /// The curvature alone takes nearly all of the acceleration of X and Y alternately, and most of their jerk;
 /// deceleration needs both as well.
-TEST(TrajectoryGenerator, StopsSoonOnACircleAtItsMaxVelocity) {
+TEST(TrajectoryGenerator, StopsEarlyOnACircleAtItsMaxVelocity) {
     Move circle = arc_from({}, 0, 10, 50);
     circle.feed = 1000;
     for (const double when : {0.8, 0.9, 1.0, 1.1, 1.2}) {
@@ -127,7 +127,7 @@ TEST(TrajectoryGenerator, StopsSoonOnACircleAtItsMaxVelocity) {
 }
 
 /// During acceleration, and at full velocity, where hardly any jerk remains for deceleration.
-TEST(TrajectoryGenerator, StopsAndDeceleratesSoonOnCurvesThatTakeNearlyAllOfTheJerk) {
+TEST(TrajectoryGenerator, StopsAndDeceleratesEarlyOnCurvesThatNeedNearlyTheFullJerk) {
     const auto velocity_of = [](const Driven& driven) {
         return std::hypot(driven.last.velocity[0], driven.last.velocity[1]);
     };
@@ -152,7 +152,7 @@ TEST(TrajectoryGenerator, StopsAndDeceleratesSoonOnCurvesThatTakeNearlyAllOfTheJ
 }
 
 /// The next line would start before this one has ended.
-TEST(TrajectoryGenerator, StopsAtTheCornerBeforeWhichItIsHeld) {
+TEST(TrajectoryGenerator, StopsAtTheCornerAfterAFeedHoldJustBeforeIt) {
     Driven driven({line_to({10, 0}, 0.2), line_to({10, 10}, 0.2)}, {});
     driven.step(0, true);
     const double whole = driven.generator.seconds_to_standstill();

@@ -19,7 +19,7 @@ using trajectory_test::long_line;
 using trajectory_test::machine;
 using trajectory_test::program;
 
-TEST(TrajectoryGeneratorLeftAlone, IsAsQuickAsIfAllWereKnownAndHardlySlowerIfItKnowsLittle) {
+TEST(TrajectoryGeneratorLeftAlone, IsAsFastAsTheOfflineTrajectoryAndSlightlySlowerWithAShortWindow) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
@@ -65,7 +65,7 @@ TEST(TrajectoryGeneratorDisturbedAtRandom, KeepsAllLimitsAndEndsWhereTheProgramE
 }
 
 /// The section may grow while the start of the next one is planned already.
-TEST(TrajectoryGenerator, KeepsAllLimitsWheneverMovesCome) {
+TEST(TrajectoryGenerator, KeepsAllLimitsWheneverMovesArrive) {
     for (unsigned seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
@@ -87,7 +87,7 @@ TEST(TrajectoryGenerator, KeepsAllLimitsWheneverMovesCome) {
 }
 
 /// The section behind a corner grows when its start is planned already.
-TEST(TrajectoryGenerator, ContinuesPastACornerToWhatCameBeforeIt) {
+TEST(TrajectoryGenerator, ContinuesPastACornerToMovesThatArrivedBeforeIt) {
     std::vector<Move> moves = {line_to({20}, 0.05)};
     for (int i = 1; i <= 80; ++i) moves.push_back(line_to({20 - 0.002 * i * i, 0.4 * i}, 0.01));
     int late = 0;
@@ -108,7 +108,7 @@ TEST(TrajectoryGenerator, ContinuesPastACornerToWhatCameBeforeIt) {
     EXPECT_GT(late, 10);
 }
 
-TEST(TrajectoryGenerator, TakesOtherFeedsAsSoonAsTheLimitsAllow) {
+TEST(TrajectoryGenerator, AppliesOverridesAsSoonAsTheLimitsAllow) {
     Driven driven({long_line(20)}, {});
     const auto velocity_after = [&](double seconds) {
         for (const double until = driven.now + seconds; driven.now < until;) driven.step(0.001, true);
@@ -139,7 +139,7 @@ TEST(TrajectoryGenerator, AlwaysStopsWithinTheMovesItKnows) {
     EXPECT_GT(looks, 100);
 }
 
-TEST(TrajectoryGenerator, ReportsWhichMoveItIsOnAndKeepsNoOther) {
+TEST(TrajectoryGenerator, ReportsTheCurrentMoveAndDiscardsPastOnes) {
     std::vector<Move> moves;
     for (int i = 1; i <= 3000; ++i) moves.push_back(line_to({0.3 * i, i % 2 * 0.2}, 0.001));
     Driven driven(moves, {500});

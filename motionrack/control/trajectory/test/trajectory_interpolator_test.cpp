@@ -82,7 +82,7 @@ double distance_to(const std::vector<PlannedMove>& moves, const Point& position)
 }
 
 /// A slow trajectory has corners within the duration of a move.
-TEST(TrajectoryInterpolator, PassesNoCornerByMoreThanItsToleranceAndAPulse) {
+TEST(TrajectoryInterpolator, StaysWithinTheCornerToleranceAndOnePulse) {
     constexpr double tolerance = 0.002;
     for (unsigned seed = 0; seed < 30; ++seed) {
         std::mt19937 random(seed);
@@ -139,7 +139,7 @@ TEST(TrajectoryInterpolator, LetsACardThatLimitsTheAccelerationOnEachMoveEnterAC
     }
 }
 
-TEST(TrajectoryInterpolator, TakesAsLongAsTheTrajectoryGenerator) {
+TEST(TrajectoryInterpolator, HasTheDurationOfTheTrajectoryGenerator) {
     double seconds = 0;
     for (const PlannedMove& move : moves_of(curvy())) seconds += seconds_of(move);
     double offline_trajectory = 0;
@@ -160,7 +160,7 @@ TEST(TrajectoryInterpolator, TakesAsLongAsTheTrajectoryGenerator) {
     EXPECT_NEAR(seconds, offline_trajectory, 0.01 * offline_trajectory);
 }
 
-TEST(TrajectoryInterpolator, KeepsDwellsWholeOrCutsThem) {
+TEST(TrajectoryInterpolator, KeepsDwellsWholeOrDividesThem) {
     Move dwell;
     dwell.kind = MoveKind::dwell;
     dwell.seconds = 0.25;

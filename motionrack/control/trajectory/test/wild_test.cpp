@@ -7,7 +7,7 @@
 namespace motionrack::control {
 namespace {
 
-TEST(OfflineTrajectoryOfAnything, KeepsAllThatHoldsAtEveryInstant) {
+TEST(RandomOfflineTrajectory, KeepsLimitsAndToleranceAtEveryInstant) {
     for (std::uint64_t seed = 100'001; seed <= 100'060; ++seed) {
         const trajectory_test::WildProgram program = trajectory_test::WildMaker(seed).program();
         const trajectory_test::Fault fault = trajectory_test::fault_of(program);
@@ -17,20 +17,20 @@ TEST(OfflineTrajectoryOfAnything, KeepsAllThatHoldsAtEveryInstant) {
 }
 
 /// After a bend at which an axis needs all of its acceleration, a move of 6 nm that takes 23 s.
-TEST(OfflineTrajectoryOfAnything, IsNeverQuickerThanItsBoundWhereAMoveBarelyMoves) {
+TEST(RandomOfflineTrajectory, IsNeverFasterThanItsBoundForAVeryShortMove) {
     const trajectory_test::Fault fault = trajectory_test::fault_of(trajectory_test::WildMaker(661189243).program());
     EXPECT_EQ(fault.name, "") << fault.text;
 }
 
 /// Between the blends of moves of nanometres, 1e-15 mm of the curve are left over.
-TEST(OfflineTrajectoryOfAnything, IsNeverQuickerThanItsBoundWhereAlmostNothingIsLeftOfAMove) {
+TEST(RandomOfflineTrajectory, IsNeverFasterThanItsBoundForAVeryShortRemainder) {
     const trajectory_test::Fault fault = trajectory_test::fault_of(trajectory_test::WildMaker(58884117).program());
     EXPECT_EQ(fault.name, "") << fault.text;
 }
 
 /// The move of X is far below a pulse, so that the next move makes it, too. The feed of that one is degrees per second,
 /// although X moves a little.
-TEST(OfflineTrajectoryOfAnything, OfARotaryAxisKeepsItsFeedAfterAMoveFarBelowAPulse) {
+TEST(RandomOfflineTrajectory, OfARotaryAxisKeepsItsFeedAfterAMoveFarBelowAPulse) {
     for (const bool moves_before : {false, true}) {
         trajectory_test::WildProgram program;
         for (AxisLimits& axis : program.limits) axis = {true, -1e9, 1e9, 100, 1000, 20'000, 1, 80};
@@ -54,7 +54,7 @@ TEST(OfflineTrajectoryOfAnything, OfARotaryAxisKeepsItsFeedAfterAMoveFarBelowAPu
 
 /// The arc is shorter than the move before it, which is far below a pulse and leads beyond the end of the arc: together
 /// they are nearly nothing, and no full circle.
-TEST(OfflineTrajectoryOfAnything, MakesNoCircleOfAnArcShorterThanTheMoveFarBelowAPulseBeforeIt) {
+TEST(RandomOfflineTrajectory, MakesNoFullCircleOfAnArcShorterThanThePrecedingMove) {
     trajectory_test::WildProgram program;
     for (AxisLimits& axis : program.limits) axis = {true, -1e9, 1e9, 100, 1000, 20'000, 1, 80};
     program.start = {0, -5, 0, 0, 0, 0};
@@ -82,7 +82,7 @@ TEST(OfflineTrajectoryOfAnything, MakesNoCircleOfAnArcShorterThanTheMoveFarBelow
 }
 
 /// A step of the reference may be longer than a whole ramp; then it is too slow by this step at each end.
-TEST(OfflineTrajectoryOfAnything, IsNeverQuickerThanWithAnyJerk) {
+TEST(RandomOfflineTrajectory, IsNeverFasterThanItsLowerBound) {
     for (std::uint64_t seed = 100'001; seed <= 100'020; ++seed) {
         const trajectory_test::WildProgram program = trajectory_test::WildMaker(seed).program();
         for (const trajectory_test::KeptStretch& kept :

@@ -25,7 +25,7 @@ int motions_of_a_part() {
     return static_cast<int>(cases("MOTIONRACK_MOTIONS", 1'000'000));
 }
 
-class DeepTravels : public ::testing::TestWithParam<int> {
+class DeepAxisProfiles : public ::testing::TestWithParam<int> {
   protected:
     std::uint64_t seed() const { return seed_from_environment(1000) + static_cast<std::uint64_t>(GetParam()); }
 };
@@ -34,7 +34,7 @@ double exactness(double seconds) {
     return 1e-8 * std::max(1.0, seconds);
 }
 
-TEST_P(DeepTravels, AreAllRightAndNeverSlowerThanTheReferee) {
+TEST_P(DeepAxisProfiles, AreValidAndNeverSlowerThanTheReference) {
     Tasks tasks(seed());
     const int count = tasks_of_a_part();
     int equal = 0;
@@ -53,7 +53,7 @@ TEST_P(DeepTravels, AreAllRightAndNeverSlowerThanTheReferee) {
     RecordProperty("equal", equal);
 }
 
-TEST_P(DeepTravels, AreNeverSlowerThanMotionsThatHappen) {
+TEST_P(DeepAxisProfiles, AreNeverSlowerThanRandomMotions) {
     Tasks tasks(seed() + 1000);
     const int count = motions_of_a_part();
     for (int i = 0; i < count; ++i) {
@@ -67,7 +67,7 @@ TEST_P(DeepTravels, AreNeverSlowerThanMotionsThatHappen) {
     }
 }
 
-TEST_P(DeepTravels, FromOutsideAreAllRightAndQuickestFromWithin) {
+TEST_P(DeepAxisProfiles, FromOutsideAreValidAndTimeOptimalOnceWithinTheLimits) {
     Tasks tasks(seed() + 2000);
     const int count = tasks_of_a_part();
     for (int i = 0; i < count; ++i) {
@@ -86,7 +86,7 @@ TEST_P(DeepTravels, FromOutsideAreAllRightAndQuickestFromWithin) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Part, DeepTravels, ::testing::Range(0, parts));
+INSTANTIATE_TEST_SUITE_P(Part, DeepAxisProfiles, ::testing::Range(0, parts));
 
 }  // namespace
 }  // namespace motionrack::control

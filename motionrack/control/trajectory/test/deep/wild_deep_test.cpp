@@ -8,9 +8,9 @@
 namespace motionrack::control {
 namespace {
 
-class OfflineTrajectoryOfAnything : public testing::TestWithParam<std::uint64_t> {};
+class RandomOfflineTrajectory : public testing::TestWithParam<std::uint64_t> {};
 
-TEST_P(OfflineTrajectoryOfAnything, KeepsAllThatHoldsAtEveryInstant) {
+TEST_P(RandomOfflineTrajectory, KeepsLimitsAndToleranceAtEveryInstant) {
     const std::uint64_t count = cases("MOTIONRACK_PROGRAMS", 1'000);
     const std::uint64_t first = seed_from_environment() + GetParam() * count;
     int faults = 0;
@@ -23,7 +23,7 @@ TEST_P(OfflineTrajectoryOfAnything, KeepsAllThatHoldsAtEveryInstant) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Thousand, OfflineTrajectoryOfAnything, testing::Range<std::uint64_t>(0, 10));
+INSTANTIATE_TEST_SUITE_P(Thousand, RandomOfflineTrajectory, testing::Range<std::uint64_t>(0, 10));
 
 }  // namespace
 }  // namespace motionrack::control
