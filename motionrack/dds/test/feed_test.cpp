@@ -106,7 +106,7 @@ TEST(FramePublisher, EndsWithTheSourceOrTheCountOrTheStop) {
     }
 }
 
-TEST(FramePublisher, ReportsWhatStoppedTheSource) {
+TEST(FramePublisher, ReportsTheErrorOfTheSource) {
     CountingPublisher publisher;
     CountingSource source;
     source.broken = 5;
@@ -118,7 +118,7 @@ TEST(FramePublisher, ReportsWhatStoppedTheSource) {
     EXPECT_EQ(publisher.numbers.size(), 5u);
 }
 
-TEST(Opening, RefusesWrongNamesDomainsAndPeriods) {
+TEST(Opening, RejectsInvalidNamesDomainsAndPeriods) {
     EXPECT_FALSE(Subscriber::open({.bus = "a*", .judge = {}}));
     EXPECT_FALSE(Subscriber::open({.bus = "a", .domain = 233, .judge = {}}));
     EXPECT_FALSE(Publisher::open({"", 0, period, period}));

@@ -6,7 +6,7 @@
 namespace motionrack::dds {
 namespace {
 
-TEST(FrameValidatorFuzz, HoldsWhateverComes) {
+TEST(FrameValidatorFuzz, KeepsItsInvariantsForAnyFrames) {
     Counts all;
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         motionrack::fuzz::Random random(seed);

@@ -84,7 +84,7 @@ RC_GTEST_PROP(FrameValidatorProperty, OnlySoundFramesOfTheSourceThatHasTheBusAre
               c.received);
 }
 
-TEST(FramePacer, AddsNothingUp) {
+TEST(FramePacer, AccumulatesNoRoundingErrors) {
     FramePacer pacer(1, period);
     const Instant begin = whole_seconds(77);
     for (int i = 0; i < 100'000; ++i)
@@ -94,7 +94,7 @@ TEST(FramePacer, AddsNothingUp) {
     EXPECT_EQ(pacer.max_lateness(), Duration{3});
 }
 
-TEST(FramePacer, SlowsDownAndCatchesUp) {
+TEST(FramePacer, ScalesTimeAndCatchesUpAfterADelay) {
     FramePacer slow(0.1, 10 * period);
     slow.due(Instant{0}, whole_seconds(1));
     EXPECT_EQ(slow.due(milliseconds(1), whole_seconds(1)), whole_seconds(1) + milliseconds(10));
@@ -136,7 +136,7 @@ TEST(Domain, Is0To232) {
     EXPECT_FALSE(check_domain(233));
 }
 
-TEST(NewSource, IsNoOther) {
+TEST(NewSource, HasAUniqueIdentity) {
     const PublisherIdentity a = new_source(), b = new_source();
     EXPECT_FALSE(a == b);
     EXPECT_EQ(a.id_text().size(), 32u);

@@ -48,7 +48,7 @@ TEST_F(FrameValidatorTest, UsesFramesThatFollowEachOther) {
     EXPECT_THAT(reported(EventKind::joined), HasSubstr("wafer1, process 101, id 0101010101010101"));
 }
 
-TEST_F(FrameValidatorTest, CountsTheFramesThatAreMissing) {
+TEST_F(FrameValidatorTest, CountsMissingFrames) {
     hear(10);
     EXPECT_EQ(hear(14), Validation::used);
     EXPECT_EQ(judge.counts().lost, 3u);
@@ -56,7 +56,7 @@ TEST_F(FrameValidatorTest, CountsTheFramesThatAreMissing) {
               "3 frames after number 10 did not come, 3 so far. The next one is used; the lost ones are not replaced.");
 }
 
-TEST_F(FrameValidatorTest, TakesALateFrameOffTheLostOnesAndDoesNotUseIt) {
+TEST_F(FrameValidatorTest, SubtractsALateFrameFromTheLostOnesAndDoesNotUseIt) {
     hear(10);
     hear(12);
     EXPECT_EQ(hear(11), Validation::late);
@@ -82,7 +82,7 @@ TEST_F(FrameValidatorTest, ContinuesWhereTheSequenceWraps) {
     EXPECT_EQ(judge.counts().lost, 1u);
 }
 
-TEST_F(FrameValidatorTest, RefusesASequenceThatJumpsAgainstItsTime) {
+TEST_F(FrameValidatorTest, RejectsASequenceNumberInconsistentWithItsTime) {
     hear(10);
     Sample jumped = sample_of(first, 5000);
     jumped.frame.time = sample_of(first, 11).frame.time;
@@ -127,7 +127,7 @@ TEST_F(FrameValidatorTest, ReportsStaleFramesOnceAfterTwoPeriods) {
     EXPECT_EQ(reported(EventKind::fresh), "Frames are received again, from number 15011 on.");
 }
 
-TEST_F(FrameValidatorTest, CountsASilenceThatEndedBeforeAnyoneLooked) {
+TEST_F(FrameValidatorTest, CountsAnInterruptionThatEndedBeforeTheNextQuery) {
     hear(10);
     now += 5 * period;
     hear(16);
@@ -135,7 +135,7 @@ TEST_F(FrameValidatorTest, CountsASilenceThatEndedBeforeAnyoneLooked) {
     EXPECT_FALSE(judge.stale());
 }
 
-TEST_F(FrameValidatorTest, NeverUsesASecondPublisherWhileTheFirstIsThere) {
+TEST_F(FrameValidatorTest, NeverUsesASecondPublisherWhileTheFirstIsActive) {
     hear(10);
     EXPECT_EQ(hear(sample_of(second, 700)), Validation::other_source);
     EXPECT_FALSE(judge.in_conflict()) << "the first may be gone";
@@ -161,7 +161,7 @@ TEST_F(FrameValidatorTest, EndsAConflictWhenTheSecondIsSilent) {
     EXPECT_TRUE(judge.others().empty());
 }
 
-TEST_F(FrameValidatorTest, GivesTheBusToTheNextSourceWhenTheFirstIsGone) {
+TEST_F(FrameValidatorTest, AcceptsTheNextSourceWhenTheFirstIsGone) {
     hear(10);
     hear(sample_of(second, 700));
     now += ValidatorSettings{}.release;
@@ -239,7 +239,7 @@ TEST_F(FrameValidatorTest, ReportsOnlyPrintableText) {
     EXPECT_THAT(reported(EventKind::wrong_crc), HasSubstr("wa?er1"));
 }
 
-TEST_F(FrameValidatorTest, KeepsAFewOthersInMindAndCountsTheRest) {
+TEST_F(FrameValidatorTest, StoresAFewOtherSourcesAndCountsTheRemainingOnes) {
     hear(10);
     for (std::uint8_t id = 50; id < 80; ++id) hear(sample_of(source_named(id, "crowd"), 1));
     EXPECT_EQ(judge.others().size(), FrameValidator::max_others);

@@ -90,7 +90,7 @@ TEST(VcdCapture, KeepsTheLevelOfALineAtXOrZAndCountsTheseSamples) {
     EXPECT_TRUE(has(analysis_warnings(*analysis).at(0), "X or Z 2 times"));
 }
 
-TEST(VcdCapture, BeginsAChannelWhereAllItsLinesHaveALevel) {
+TEST(VcdCapture, StartsAChannelOnceAllItsLinesHaveALevel) {
     const auto late = analysed(vcd_head + "#0 x! 0\" 0#\n#5 1\"\n#7 1!\n#9 0\"\n", "a.vcd");
     ASSERT_TRUE(late);
     EXPECT_EQ(late->channels[0].count, -1) << "A came up with a level, not by an edge";
@@ -107,7 +107,7 @@ TEST(VcdCapture, RefusesTimeThatGoesBackwardsWithItsLine) {
     EXPECT_TRUE(has(text, "a.vcd:12:1: Time goes backwards, from #100 to #99."));
 }
 
-TEST(VcdCapture, DecodesAFileThatIsCutOffToItsLastWholeValue) {
+TEST(VcdCapture, DecodesATruncatedFileToItsLastCompleteValue) {
     for (const std::string end :
          {"#300 b10", "#300 1", "#300 b1 \n", "#", "#300 $comment so", "#20", "r1.5", "1(", "junk"}) {
         const auto analysis = analysed(vcd_head + "#0 0! 0\" 0#\n#100 1!\n#200 1\"\n" + end, "a.vcd");
@@ -170,7 +170,7 @@ TEST(CsvCapture, ReadsFilesOfSaleae) {
     EXPECT_DOUBLE_EQ(analysis->first_s, -0.001);
 }
 
-TEST(CsvCapture, ReadsOtherSeparatorsUnitsAndFilesWithoutAHead) {
+TEST(CsvCapture, ReadsOtherSeparatorsUnitsAndFilesWithoutAHeader) {
     const auto semicolons = analysed("Time (ms);A;B\n0,5;0;0\n1,5;\"1\";0\n", "a.csv");
     ASSERT_TRUE(semicolons) << semicolons.error().text();
     EXPECT_EQ(semicolons->channels[0].count, 1);
@@ -185,7 +185,7 @@ TEST(CsvCapture, ReadsOtherSeparatorsUnitsAndFilesWithoutAHead) {
     EXPECT_DOUBLE_EQ(timed->channels[0].mean_per_s, 2);
 }
 
-TEST(CsvCapture, CountsXAndHolds) {
+TEST(CsvCapture, CountsUnknownLevelsAndHoldsTheLastOne) {
     const auto analysis = analysed("t,a,b\n0,0,0\n1,1,0\n2,x,0\n3,x,0\n4,1,z\n5,1,1\n", "a.csv");
     ASSERT_TRUE(analysis) << analysis.error().text();
     EXPECT_EQ(analysis->channels[0].count, 2);
@@ -194,7 +194,7 @@ TEST(CsvCapture, CountsXAndHolds) {
     EXPECT_EQ(analysis->channels[0].notes[1].first_unknown, "line 6");
 }
 
-TEST(CsvCapture, RefusesWithTheLine) {
+TEST(CsvCapture, RejectsInvalidFilesWithTheLine) {
     EXPECT_TRUE(has(refusal("t,a,b\n0,0,0\n2,1,0\n1,1,1\n3,0,0\n", "a.csv"),
                     "a.csv:4:1: Time goes backwards, from 2 s to 1 s."));
     EXPECT_TRUE(
@@ -210,7 +210,7 @@ TEST(CsvCapture, RefusesWithTheLine) {
     EXPECT_TRUE(has(refusal(std::string(3'000'000, '0'), "a.csv"), "this is not a text file"));
 }
 
-TEST(CsvCapture, DecodesAFileThatIsCutOffToItsLastWholeRow) {
+TEST(CsvCapture, DecodesATruncatedFileToItsLastCompleteRow) {
     for (const std::string end : {"0.003,1", "0.0", "0.003,1,q"}) {
         const auto analysis = analysed("t,a,b\n0.001,0,0\n0.002,1,0\n" + end, "a.csv");
         ASSERT_TRUE(analysis) << analysis.error().text();
@@ -222,7 +222,7 @@ TEST(CsvCapture, DecodesAFileThatIsCutOffToItsLastWholeRow) {
 
 // ---- raw
 
-TEST(RawCapture, CountsSamplesOfEverySizeAsTheReferee) {
+TEST(RawCapture, CountsSamplesOfEverySizeAsTheReferenceDecoder) {
     const std::size_t samples = 600'001;
     const auto lines = random_lines(8, samples);
     Referee referee, second;
@@ -249,7 +249,7 @@ TEST(RawCapture, CountsSamplesOfEverySizeAsTheReferee) {
     }
 }
 
-TEST(RawCapture, FindsTheVelocityOfItsFastestWindow) {
+TEST(RawCapture, ReportsThePeakVelocityOfItsWindows) {
     std::string file;
     unsigned phase = 0;
     const auto run = [&](int samples, int each, unsigned step) {
@@ -271,7 +271,7 @@ TEST(RawCapture, FindsTheVelocityOfItsFastestWindow) {
     EXPECT_NEAR(analysis->channels[0].mean_per_s, (1999 - 10'000 + 100) / 0.299999, 0.1);
 }
 
-TEST(RawCapture, TakesTheLineThatSigrokPutsBeforeTheSamples) {
+TEST(RawCapture, SkipsTheHeaderLineOfSigrok) {
     const auto analysis = analysed(std::string_view("META samplerate: 2000000\n\0\1\3\2\0", 30), "a.bin", {"X=0,1"});
     ASSERT_TRUE(analysis) << analysis.error().text();
     EXPECT_EQ(analysis->samples, 5u);
@@ -279,7 +279,7 @@ TEST(RawCapture, TakesTheLineThatSigrokPutsBeforeTheSamples) {
     EXPECT_DOUBLE_EQ(analysis->channels[0].seconds, 2e-6);
 }
 
-TEST(RawCapture, ReportsWhatIsMissing) {
+TEST(RawCapture, ReportsMissingSettingsAndTruncatedSamples) {
     EXPECT_TRUE(has(refusal("abc", "a.bin", {"X=0,1"}), "--sample-rate 24M"));
     EXPECT_TRUE(has(refusal("abc", "a.bin", {}, {Format::automatic, 1e6, 1}), "--channel"));
     EXPECT_TRUE(has(refusal("abc", "a.bin", {"X=0,9"}, {Format::automatic, 1e6, 1}), "no line '9'"));
@@ -292,7 +292,7 @@ TEST(RawCapture, ReportsWhatIsMissing) {
 
 // ---- channels
 
-TEST(Channels, AreFoundByTheirNames) {
+TEST(Channels, AreSelectedByName) {
     const auto two = choose_channels(
         {"top.X.X_enc_a", "top.X.X_enc_b", "top.X.X_enc_z", "top.Y.enc_b", "top.Y.enc_a", "top.a", "top.b"}, {});
     ASSERT_TRUE(two) << two.error().text();
@@ -311,7 +311,7 @@ TEST(Channels, AreFoundByTheirNames) {
     EXPECT_EQ((*chosen)[1].b, 2u);
 }
 
-TEST(Channels, AreRefusedWithTheLinesThereAre) {
+TEST(Channels, AreRejectedWithTheAvailableLines) {
     const std::vector<std::string> lines = {"x.a", "y.a", "y.b"};
     for (const char* text : {"X", "X=a", "=a,b", "X=x.a,y.b,,", "X=x.a,", "X=x.a,x.a", "X=x.a,y.b,q", "X=a,y.b"})
         EXPECT_FALSE(choose_channels(lines, {text})) << text;

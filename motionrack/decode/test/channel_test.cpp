@@ -50,7 +50,7 @@ class WideDecoder : public testing::TestWithParam<std::size_t> {
     const Kernels& kernels() const { return available_kernels()[GetParam()]; }
 };
 
-TEST_P(WideDecoder, CountsBytesOfEveryLengthAndAlignmentAsTheReferee) {
+TEST_P(WideDecoder, CountsBytesOfEveryLengthAndAlignmentAsTheReferenceDecoder) {
     for (std::size_t size = 0; size <= 300; ++size)
         for (std::size_t start = 0; start < 64; start += 1 + size % 3) {
             const auto stream = random_lines(size * 64 + start, size + start);
@@ -63,7 +63,7 @@ TEST_P(WideDecoder, CountsBytesOfEveryLengthAndAlignmentAsTheReferee) {
         }
 }
 
-TEST_P(WideDecoder, CountsPlanesOfEveryLengthAsTheReferee) {
+TEST_P(WideDecoder, CountsPlanesOfEveryLengthAsTheReferenceDecoder) {
     for (std::size_t size = 0; size <= 300; ++size) {
         const auto stream = random_lines(size, size);
         const auto a = plane_of(stream.data(), size, 0), b = plane_of(stream.data(), size, 1),
@@ -76,7 +76,7 @@ TEST_P(WideDecoder, CountsPlanesOfEveryLengthAsTheReferee) {
     }
 }
 
-TEST_P(WideDecoder, CountsFourChannelsInAByteAsTheReferee) {
+TEST_P(WideDecoder, CountsFourChannelsInAByteAsTheReferenceDecoder) {
     const std::array<Bits, 4> orders[] = {{{{0, 1}, {2, 3}, {4, 5}, {6, 7}}}, {{{7, 0}, {3, 5}, {5, 3}, {1, 1}}}};
     for (std::size_t size = 0; size <= 300; ++size)
         for (const auto& bits : orders) {
@@ -121,7 +121,7 @@ RC_GTEST_PROP(WideDecoderStreams, AreTheSameInBlocksOfAnyLength, ()) {
     }
 }
 
-TEST_P(WideDecoder, CountsMillionsOfCountsOneWayWithoutLosingACarry) {
+TEST_P(WideDecoder, CountsMillionsOfCountsInOneDirectionWithoutLosingACarry) {
     std::vector<std::uint8_t> stream(3'000'001);
     for (std::size_t i = 0; i < stream.size(); ++i) stream[i] = static_cast<std::uint8_t>((i ^ (i & 3U) >> 1) & 3U);
     ChannelDecoder up({}, kernels()), down({}, kernels());
@@ -139,7 +139,7 @@ TEST_P(WideDecoder, CountsMillionsOfCountsOneWayWithoutLosingACarry) {
 INSTANTIATE_TEST_SUITE_P(OfThisCpu, WideDecoder, testing::Range<std::size_t>(0, available_kernels().size()),
                          [](const auto& kind) { return std::string(available_kernels()[kind.param].name); });
 
-TEST(ChannelDecoder, KeepsTheFirstIllegalTransitionsAndCountsAll) {
+TEST(ChannelDecoder, StoresTheFirstIllegalTransitionsAndCountsAll) {
     ChannelSettings settings;
     settings.illegal_kept = 2;
     settings.indexes_kept = 1;
@@ -156,7 +156,7 @@ TEST(ChannelDecoder, KeepsTheFirstIllegalTransitionsAndCountsAll) {
     EXPECT_EQ(decoder.count(), 0);
 }
 
-TEST(ChannelDecoder, TakesFallingEdgesOfAnIndexThatIsActiveLow) {
+TEST(ChannelDecoder, UsesFallingEdgesOfAnActiveLowIndex) {
     ChannelSettings settings;
     settings.index_low = true;
     const std::vector<std::uint8_t> stream = {4, 5, 7, 3, 7, 7, 6, 2, 4};

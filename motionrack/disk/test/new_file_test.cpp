@@ -33,7 +33,7 @@ class AtomicFile : public testing::Test {
     fs::path folder_;
 };
 
-TEST_F(AtomicFile, TakesItsNameWhenItIsWhole) {
+TEST_F(AtomicFile, GetsItsNameWhenItIsComplete) {
     put(at("a"), "old");
     ::chmod(at("a").c_str(), 0640);
     auto file = NewFile::create(at("a"));
@@ -52,7 +52,7 @@ TEST_F(AtomicFile, TakesItsNameWhenItIsWhole) {
     EXPECT_EQ(static_cast<int>(fs::status(at("b")).permissions()), 0600);
 }
 
-TEST_F(AtomicFile, ThatIsNotCommittedLeavesTheOldFile) {
+TEST_F(AtomicFile, WithoutACommitLeavesTheOldFile) {
     put(at("a"), "old");
     {
         auto file = NewFile::create(at("a"));
@@ -83,7 +83,7 @@ TEST_F(AtomicFile, ReportsWhyItIsNotWritten) {
     EXPECT_EQ(text_of(at("a")), "mine");
 }
 
-TEST_F(AtomicFile, OnAFullDiskStaysAsItWas) {
+TEST_F(AtomicFile, OnAFullDiskLeavesTheOldFile) {
     put(at("a"), "old");
     struct rlimit before {};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -99,7 +99,7 @@ TEST_F(AtomicFile, OnAFullDiskStaysAsItWas) {
     EXPECT_FALSE(fs::exists(at("a.incomplete")));
 }
 
-TEST_F(AtomicFile, ThatIsNotOnTheDiskAsWrittenIsNotTaken) {
+TEST_F(AtomicFile, IsRejectedIfItsContentsDifferOnTheDisk) {
     put(at("a"), "old");
     auto file = NewFile::create(at("a"));
     EXPECT_TRUE(file->write("12.5 mm"));
@@ -110,7 +110,7 @@ TEST_F(AtomicFile, ThatIsNotOnTheDiskAsWrittenIsNotTaken) {
     EXPECT_EQ(text_of(at("a")), "old");
 }
 
-TEST_F(AtomicFile, OfADeviceIsWrittenAsItIs) {
+TEST_F(AtomicFile, WritesToADeviceDirectly) {
     auto nothing = NewFile::create("/dev/null");
     ASSERT_TRUE(nothing);
     EXPECT_TRUE(nothing->write("text"));

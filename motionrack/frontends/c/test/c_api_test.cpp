@@ -147,7 +147,7 @@ TEST(CApi, EachThreadHasItsOwnLastError) {
 }
 
 /// Names exported by the library, from nm.
-TEST(CApi, TheLibraryShowsNothingButItsFunctions) {
+TEST(CApi, TheLibraryExportsItsFunctionsOnly) {
     std::FILE* pipe = ::popen("nm -D --defined-only --format=just-symbols '" MOTIONRACK_C_LIBRARY "'", "r");
     ASSERT_NE(pipe, nullptr);
     std::array<char, 512> line{};

@@ -77,7 +77,7 @@ void drive_and_stop(World& world, std::uint64_t step) {
     }
 }
 
-TEST(CConditions, EachIsReportedOnceInOrderAtItsInstantHoweverTimeIsCut) {
+TEST(CConditions, AreReportedOnceInOrderAtTheirInstantHoweverTimeIsDivided) {
     World quiet(weak_axis);
     drive_and_stop(quiet, 600'000);
     const std::vector<Heard> all = reported(quiet);
@@ -95,7 +95,7 @@ TEST(CConditions, EachIsReportedOnceInOrderAtItsInstantHoweverTimeIsCut) {
     }
 }
 
-TEST(CConditions, ThoseBeforeItAreNotReportedAndThoseAfterItsRemovalNeither) {
+TEST(CConditions, AreReportedFromRegistrationToRemovalOfTheCallback) {
     World world(weak_axis);
     EXPECT_EQ(mr_fault(world, "motor.lose_steps=64", "X"), MR_OK);
     const std::size_t before = reported(world).size();
@@ -114,7 +114,7 @@ TEST(CConditions, ThoseBeforeItAreNotReportedAndThoseAfterItsRemovalNeither) {
     EXPECT_EQ(listener.heard.size(), heard);
 }
 
-TEST(CConditions, ACopyHasNoCallBack) {
+TEST(CConditions, ACopyHasNoCallback) {
     World world(weak_axis);
     RecordingListener listener;
     listener.listen(world);
@@ -124,7 +124,7 @@ TEST(CConditions, ACopyHasNoCallBack) {
     EXPECT_TRUE(listener.heard.empty());
 }
 
-TEST(CConditions, ACallBackActsAtTheInstantItself) {
+TEST(CConditions, ACallbackActsAtTheInstantOfItsCondition) {
     World world(weak_axis);
     RecordingListener listener;
     listener.also = [](RecordingListener& own) {
@@ -145,7 +145,7 @@ TEST(CConditions, ACallBackActsAtTheInstantItself) {
     EXPECT_GE(listener.heard.size(), 2u);
 }
 
-TEST(CConditions, ACallBackThatLetsTimePassIsRefusedAndChangesNothing) {
+TEST(CConditions, ACallbackThatAdvancesTimeIsRejectedAndChangesNothing) {
     World world(weak_axis);
     RecordingListener listener;
     listener.also = [](RecordingListener& own) {
@@ -173,7 +173,7 @@ TEST(CConditions, ACallBackThatLetsTimePassIsRefusedAndChangesNothing) {
     world.pass(1000);
 }
 
-TEST(CConditions, ACallBackMayRemoveItself) {
+TEST(CConditions, ACallbackMayRemoveItself) {
     World world(weak_axis);
     RecordingListener listener;
     listener.also = [](RecordingListener& own) { own.note(mr_on_condition(own.rack, nullptr, nullptr)); };
@@ -183,7 +183,7 @@ TEST(CConditions, ACallBackMayRemoveItself) {
     EXPECT_EQ(mr_on_condition(nullptr, &RecordingListener::call, &listener), MR_BAD_CALL);
 }
 
-TEST(CConditions, ARecordingCanBeginWhenSomethingHappens) {
+TEST(CConditions, ARecordingCanStartAtACondition) {
     World world(weak_axis);
     const std::string csv = temporary("condition.csv");
     struct At {

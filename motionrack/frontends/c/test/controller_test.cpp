@@ -58,7 +58,7 @@ TEST(CProgram, IsExecutedToItsEndAndReportsItsResult) {
     EXPECT_EQ(progress.lines.back(), 5);
 }
 
-TEST(CProgram, GivesTheSameEventTraceWithAndWithoutCallBacksAndFromAFile) {
+TEST(CProgram, GivesTheSameEventTraceWithAndWithoutCallbacksAndFromAFile) {
     const std::string file = temporary("square.ngc");
     std::ofstream(file) << square;
     World plain(homing_rack), watched(homing_rack), from_file(homing_rack);
@@ -75,7 +75,7 @@ TEST(CProgram, GivesTheSameEventTraceWithAndWithoutCallBacksAndFromAFile) {
     std::filesystem::remove(file);
 }
 
-TEST(CProgram, EveryMistakeIsReportedWithLineAndColumnBeforeAnythingMoves) {
+TEST(CProgram, EveryErrorIsReportedWithLineAndColumnBeforeAnythingMoves) {
     World world(homing_rack);
     const std::uint64_t before = world.hash();
     const mr_run_result result = run(world, "G21 G90\nG1 X7 F600\nG1 Xq\nG1 X3000\n", MR_BAD_INPUT);
@@ -117,7 +117,7 @@ TEST(CProgram, SubprogramsLieBesideItsFileAndToolsInATable) {
     std::filesystem::remove_all(folder);
 }
 
-TEST(CProgram, AnAnswerOfItsProgressStopsItAlongThePath) {
+TEST(CProgram, AReturnValueOfTheProgressCallbackStopsItOnThePath) {
     World world(homing_rack);
     Progress progress;
     progress.stop_at_s = 0.3;
@@ -133,7 +133,7 @@ TEST(CProgram, AnAnswerOfItsProgressStopsItAlongThePath) {
     EXPECT_EQ(world.part("X.position_mm"), stopped_at);
 }
 
-TEST(CProgram, ThatTheMachineStopsOrWhosePositionIsLostIsNotOk) {
+TEST(CProgram, StoppedByTheMachineOrWithALostPositionIsNotOk) {
     World stalled(homing_rack);
     EXPECT_EQ(mr_fault(stalled, "motor.stall", "X"), MR_OK);
     const mr_run_result stopped = run(stalled, square, MR_MACHINE);
@@ -164,7 +164,7 @@ TEST(CProgram, NeedsARackWithAxes) {
     EXPECT_THAT(mr_last_error(), HasSubstr("no axes"));
 }
 
-TEST(CProgram, CannotBeCalledFromItsOwnProgress) {
+TEST(CProgram, CannotBeCalledFromItsProgressCallback) {
     World world(homing_rack);
     Progress progress;
     progress.rack = world.rack;
@@ -174,7 +174,7 @@ TEST(CProgram, CannotBeCalledFromItsOwnProgress) {
     EXPECT_EQ(world.part("X.position_mm"), 5);
 }
 
-TEST(CProgram, RecordsWhatItDrives) {
+TEST(CProgram, RecordsItsMotion) {
     World world(homing_rack);
     const std::string csv = temporary("program.csv");
     ASSERT_EQ(mr_trace_start(world, csv.c_str(), "X.step X.dir c1.xlp"), MR_OK) << mr_last_error();
@@ -198,7 +198,7 @@ TEST(CProgram, NullPointersAreBadCalls) {
 
 // ---- homing
 
-TEST(CHome, FindsTheSwitchesAndReportsAsTheCommandLine) {
+TEST(CHome, FindsTheSwitchesAndReportsTheResultsOfTheCommandLine) {
     World world(homing_rack);
     ASSERT_EQ(mr_home(world, nullptr), MR_OK) << mr_last_error();
     EXPECT_THAT(mr_report(world), HasSubstr("axis X  method 2"));
@@ -230,7 +230,7 @@ TEST(CHome, ASwitchThatIsNotFoundIsReported) {
     EXPECT_THAT(mr_report(world), HasSubstr("not homed"));
 }
 
-TEST(CHome, TheSameWithACallBackOfConditions) {
+TEST(CHome, GivesTheSameResultsWithAConditionCallback) {
     World plain(homing_rack), watched(homing_rack);
     EXPECT_EQ(mr_on_condition(
                   watched, [](void*, std::uint64_t, std::int64_t, const char*, int, const char*) {}, nullptr),

@@ -36,7 +36,7 @@ TEST(CFrames, AreTheSameFromEveryCardWithTheAddressOfEachWord) {
     EXPECT_LT(mr_now_ns(world), 203'000u) << "it does not wait longer than it must";
 }
 
-TEST(CFrames, AreRefusedWhenThereIsNoneOrItIsStaleAndTheFrameIsLeftAlone) {
+TEST(CFrames, MissingAndStaleOnesAreRejectedWithoutChangingTheBuffer) {
     World world(two_cards);
     mr_frame frame = marked();
     EXPECT_EQ(mr_frame_read(world, "c2", &frame), MR_REFUSED);
@@ -64,7 +64,7 @@ TEST(CFrames, PositionsBelowZeroAreNegative) {
     EXPECT_GT(frame.counts[0], -10'000'000);
 }
 
-TEST(CFrames, WrongCallsAreRefusedAndChangeNothing) {
+TEST(CFrames, InvalidCallsAreRejectedAndChangeNothing) {
     World world(two_cards);
     mr_frame frame = marked();
     const std::uint64_t before = world.hash();
@@ -81,7 +81,7 @@ TEST(CFrames, WrongCallsAreRefusedAndChangeNothing) {
     EXPECT_EQ(frame.sequence, 77u);
 }
 
-TEST(CFrames, ARecordingContinuesWhileAFrameIsWaitedFor) {
+TEST(CFrames, ARecordingContinuesDuringAWaitForAFrame) {
     const std::string csv = temporary("frames.csv");
     World world(two_cards);
     ASSERT_EQ(mr_trace_start(world, csv.c_str(), "bus.read_n"), MR_OK) << mr_last_error();

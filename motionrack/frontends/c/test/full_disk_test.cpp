@@ -56,7 +56,7 @@ std::string without_empty_times(const std::string& vcd) {
     return out;
 }
 
-TEST(CWorld, ARecordingThatCannotBeEndedContinuesAndIsCompleteOnceTheDiskHasSpace) {
+TEST(CRack, ARecordingThatCannotEndContinuesAndCompletesOnceTheDiskHasSpace) {
     const std::string csv = temporary("f.csv"), vcd = temporary("f.vcd");
     const std::string whole = recorded(csv, false);
     EXPECT_EQ(count_of(whole, ",X.step,1\r\n"), 500);
@@ -64,7 +64,7 @@ TEST(CWorld, ARecordingThatCannotBeEndedContinuesAndIsCompleteOnceTheDiskHasSpac
     EXPECT_EQ(without_empty_times(recorded(vcd, true)), without_empty_times(recorded(vcd, false)));
 }
 
-TEST(CWorld, ARecordingThatCannotBeWrittenIsReplacedByAnother) {
+TEST(CRack, ARecordingThatCannotBeWrittenIsReplacedByAnother) {
     const std::string full = temporary("g.vcd"), csv = temporary("g.csv");
     if (::access("/dev/full", W_OK) != 0) GTEST_SKIP() << "this system has no /dev/full";
     std::filesystem::create_symlink("/dev/full", full);

@@ -97,7 +97,7 @@ TEST(CHdf5, VoltagesHaveTheirUnit) {
     std::filesystem::remove(h5);
 }
 
-TEST(CHdf5, AFullDiskAndAFolderThatIsNotThereAreSentences) {
+TEST(CHdf5, AFullDiskAndAMissingFolderAreReported) {
     World world;
     EXPECT_EQ(mr_trace_start(world, "/no/such/folder/a.h5", nullptr), MR_IO);
     EXPECT_THAT(mr_last_error(), HasSubstr("/no/such/folder/a.h5"));
@@ -126,7 +126,7 @@ TEST(CHdf5, AFullDiskAndAFolderThatIsNotThereAreSentences) {
     std::filesystem::remove(csv);
 }
 
-TEST(CHdf5, AnEndOnAFullDiskIsReportedAndTheFileDoesNotGetItsName) {
+TEST(CHdf5, AFullDiskAtTheEndIsReportedAndTheFileDoesNotGetItsName) {
     World world;
     world.set_up(1, 4000);
     const std::string h5 = temporary("end.h5"), part = h5 + ".incomplete";

@@ -147,7 +147,7 @@ std::uint64_t seed_given() {
     return seed;
 }
 
-TEST(CHostile, RandomCallsGiveCodesAndSentencesAndNothingElse) {
+TEST(CHostile, RandomCallsReturnCodesAndMessagesOnly) {
     const std::uint64_t seed = seed_given();
     for (std::uint64_t world = 0; world < 20 && !testing::Test::HasFailure(); ++world) {
         Hostile hostile(seed * 1000 + world);
@@ -156,7 +156,7 @@ TEST(CHostile, RandomCallsGiveCodesAndSentencesAndNothingElse) {
 }
 
 /// Any output connected to any input: the rack is rejected, or runs with any data written to the card.
-TEST(CHostile, RacksWithRandomWiresRunOrAreRefused) {
+TEST(CHostile, RacksWithRandomWiresRunOrAreRejected) {
     const std::uint64_t seed = seed_given();
     std::mt19937_64 random(seed);
     static const char* const outputs[] = {"xpp",   "xpm",     "ypp",     "ypm",     "xout0",  "xout3",

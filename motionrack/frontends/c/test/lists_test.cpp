@@ -74,7 +74,7 @@ std::vector<std::string> racks() {
 class CLists : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Racks, CLists, testing::ValuesIn(racks()));
 
-TEST_P(CLists, HaveEveryQuantityThatTheRackHas) {
+TEST_P(CLists, HaveEveryQuantityOfTheRack) {
     World world(GetParam().c_str());
     const auto session = *rack::Session::open(GetParam());
     std::set<std::string> known, reported;
@@ -92,7 +92,7 @@ TEST_P(CLists, HaveEveryQuantityThatTheRackHas) {
     EXPECT_EQ(reported, known);
 }
 
-TEST_P(CLists, StateWhatCanBeSetAndItsRange) {
+TEST_P(CLists, StateWhichQuantitiesCanBeSetAndTheirRange) {
     World world(GetParam().c_str());
     for (const Quantity& one : quantities(world)) {
         const auto set = [&](double value) {
@@ -112,7 +112,7 @@ TEST_P(CLists, StateWhatCanBeSetAndItsRange) {
     }
 }
 
-TEST_P(CLists, HaveEveryFaultThatTheRackCanHaveWithItsRange) {
+TEST_P(CLists, HaveEveryFaultOfTheRackWithItsRange) {
     World world(GetParam().c_str());
     const auto session = *rack::Session::open(GetParam());
     std::set<std::pair<std::string, std::string>> known, reported;
@@ -135,7 +135,7 @@ TEST_P(CLists, HaveEveryFaultThatTheRackCanHaveWithItsRange) {
     EXPECT_EQ(reported, known);
 }
 
-TEST(CListsOfEverything, MeetEveryFaultThatAnAxisCanHave) {
+TEST(CListsOfEverything, HaveEveryFaultOfAnAxis) {
     std::set<std::string> reported;
     for (const std::string& rack : racks()) {
         World world(rack.c_str());

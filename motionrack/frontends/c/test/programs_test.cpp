@@ -22,7 +22,7 @@ void stands_at(World& world, double x, double y) {
     EXPECT_NEAR(world.part("Y.position_mm"), y, 0.01);
 }
 
-TEST(CPrograms, AProgramBeginsWhereHomingLeftTheAxes) {
+TEST(CPrograms, AProgramStartsAtThePositionsAfterHoming) {
     World world(homing_rack);
     ASSERT_EQ(mr_home(world, nullptr), MR_OK) << mr_last_error();
     const double homed = static_cast<double>(world.peek("x.LP")) / pulses_of_mm;
@@ -34,7 +34,7 @@ TEST(CPrograms, AProgramBeginsWhereHomingLeftTheAxes) {
     stands_at(world, 15, 10);
 }
 
-TEST(CPrograms, TheSecondBeginsWhereTheFirstEndedAndItsNumbersAreItsOwn) {
+TEST(CPrograms, TheSecondStartsAtTheEndOfTheFirstWithItsOwnResults) {
     World world(homing_rack), alone(homing_rack);
     const mr_run_result first = run(world, to_15_10);
     EXPECT_NEAR(first.path_mm, 20, 1e-9);
@@ -53,7 +53,7 @@ TEST(CPrograms, TheSecondBeginsWhereTheFirstEndedAndItsNumbersAreItsOwn) {
     stands_at(world, 20, 0);
 }
 
-TEST(CPrograms, TimeThatPassesBeforeAProgramChangesNoneOfItsNumbers) {
+TEST(CPrograms, TimeBeforeAProgramDoesNotChangeItsResults) {
     World early(homing_rack), late(homing_rack);
     late.pass(1'250'000'000);
     const mr_run_result one = run(early, to_15_10), other = run(late, to_15_10);
@@ -63,7 +63,7 @@ TEST(CPrograms, TimeThatPassesBeforeAProgramChangesNoneOfItsNumbers) {
     stands_at(late, 15, 10);
 }
 
-TEST(CPrograms, HowTheTimeBetweenTwoIsCutDoesNotMatter) {
+TEST(CPrograms, TheDivisionOfTheTimeBetweenTwoDoesNotMatter) {
     World whole(homing_rack), cut(homing_rack);
     run(whole, to_15_10);
     run(cut, to_15_10);
@@ -74,7 +74,7 @@ TEST(CPrograms, HowTheTimeBetweenTwoIsCutDoesNotMatter) {
     EXPECT_EQ(cut.hash(), whole.hash());
 }
 
-TEST(CPrograms, WhatTheHostMovedByRegistersIsKnown) {
+TEST(CPrograms, MotionByRegistersIsIncludedInTheStartPosition) {
     World world(homing_rack);
     world.set_up(1, 4000);
     world.command(1, 0x06, 640);
@@ -91,7 +91,7 @@ TEST(CPrograms, WhatTheHostMovedByRegistersIsKnown) {
     stands_at(world, 15, 10);
 }
 
-TEST(CPrograms, OneThatWasStoppedLeavesTheAxesForTheNext) {
+TEST(CPrograms, TheNextStartsAtThePositionOfAStop) {
     World world(homing_rack);
     const mr_run_options options{
         nullptr, 0, [](void*, double seconds, std::int64_t, std::int64_t) { return static_cast<int>(seconds >= 0.2); },
@@ -106,7 +106,7 @@ TEST(CPrograms, OneThatWasStoppedLeavesTheAxesForTheNext) {
     stands_at(world, 15, 10);
 }
 
-TEST(CPrograms, AMistakeInTheSecondMovesNothing) {
+TEST(CPrograms, AnErrorInTheSecondMovesNothing) {
     World world(homing_rack);
     run(world, to_15_10);
     const std::uint64_t hash = world.hash();
@@ -119,7 +119,7 @@ TEST(CPrograms, AMistakeInTheSecondMovesNothing) {
     stands_at(world, 20, 0);
 }
 
-TEST(CPrograms, ACopyRunsTheSecondAsTheFirstWorldDoes) {
+TEST(CPrograms, ACopyRunsTheSecondAsTheOriginalRackDoes) {
     World world(homing_rack);
     ASSERT_EQ(mr_home(world, nullptr), MR_OK) << mr_last_error();
     run(world, to_15_10);
@@ -132,7 +132,7 @@ TEST(CPrograms, ACopyRunsTheSecondAsTheFirstWorldDoes) {
     stands_at(copy, 20, 0);
 }
 
-TEST(CPrograms, ARecordingThatIsBegunBeforeHasAllOfThem) {
+TEST(CPrograms, ARecordingStartedBeforeHasAllOfThem) {
     World world(homing_rack);
     const std::string csv = temporary("programs.csv");
     ASSERT_EQ(mr_trace_start(world, csv.c_str(), "X.step Y.step"), MR_OK) << mr_last_error();
@@ -146,7 +146,7 @@ TEST(CPrograms, ARecordingThatIsBegunBeforeHasAllOfThem) {
     std::filesystem::remove(csv);
 }
 
-TEST(CPrograms, ALostPositionKeepsTheNextFromBeginningUntilTheAxisIsHomed) {
+TEST(CPrograms, ALostPositionPreventsTheNextUntilTheAxisIsHomed) {
     World world(homing_rack);
     struct Pusher {
         mr_rack* rack;
@@ -177,7 +177,7 @@ TEST(CPrograms, ALostPositionKeepsTheNextFromBeginningUntilTheAxisIsHomed) {
     stands_at(world, 20, 0);
 }
 
-TEST(CPrograms, AHomingThatFindsNothingKeepsProgramsFromBeginning) {
+TEST(CPrograms, AFailedHomingPreventsPrograms) {
     World world(homing_rack);
     EXPECT_EQ(mr_fault(world, "home.stuck_open", "X"), MR_OK);
     EXPECT_EQ(mr_home(world, "X"), MR_MACHINE);
@@ -227,7 +227,7 @@ cam_from_mm = 126
 cam_to_mm = 132
 )";
 
-TEST(CPrograms, AServoContinuesFromWhereItStands) {
+TEST(CPrograms, AServoContinuesFromItsActualPosition) {
     World world(carriage);
     world.pass(10'000'000);
     EXPECT_EQ(run(world, "G21 G90\nG1 X150 F6000\nM2\n").ok, 1);

@@ -14,7 +14,7 @@ void out(World& world, std::uint32_t port, unsigned value) {
     world.pass(200'000);
 }
 
-TEST(CTrim, GivesTheVoltageOfARate) {
+TEST(CTrim, ConvertsARateToItsVoltage) {
     World world("[card.c1]\ntype = \"databoard4002\"\ntrim = \"0.5 15000, 10 16383\"\n");
     out(world, 1, 13);
     out(world, 3, 'R');
@@ -27,7 +27,7 @@ TEST(CTrim, GivesTheVoltageOfARate) {
     EXPECT_EQ(world.wire("c1.vdirect"), 0.5);
 }
 
-TEST(CTrim, ThatFallsIsRefusedWithItsRow) {
+TEST(CTrim, ADecreasingTableIsRejectedWithItsRow) {
     mr_rack* rack = nullptr;
     EXPECT_EQ(mr_rack_open("[card.c1]\ntype = \"databoard4002\"\ntrim = \"0.5 15000, 0.4 16383\"\n", &rack),
               MR_BAD_INPUT);

@@ -14,7 +14,7 @@ using ::testing::Not;
 
 // ---- wires
 
-TEST(CWires, SwitchesLeadToTheCardUntilTheirPinIsDriven) {
+TEST(CWires, SwitchesReachTheCardUntilTheirPinIsForced) {
     World world(with_switches);
     EXPECT_EQ(world.wire("X.limit_plus"), 1);
     world.set("X.limit_plus", 0);
@@ -55,7 +55,7 @@ TEST(CWires, OutputsAndOtherValuesAreRefused) {
     EXPECT_EQ(world.hash(), before);
 }
 
-TEST(CWires, PulsesCanBeSeenAtTheirPin) {
+TEST(CWires, PulsesAreReadableAtTheirPin) {
     World world;
     world.write(0x00, 0x010F);
     world.command(1, 0x00, 8'000'000);
@@ -73,7 +73,7 @@ TEST(CWires, PulsesCanBeSeenAtTheirPin) {
     EXPECT_EQ(rises, 3);
 }
 
-TEST(CWires, EncoderInputsCountWhatTheyAreDrivenWithAndThenTheEncoderAgain) {
+TEST(CWires, EncoderInputsCountForcedLevelsAndThenTheEncoderAgain) {
     World world;
     world.set_up(1, 4000);
     world.command(1, 0x06, 1000);
@@ -108,7 +108,7 @@ TEST(CWires, EncoderInputsCountWhatTheyAreDrivenWithAndThenTheEncoderAgain) {
 }
 
 /// With COMP+ on EP: a manual count crosses it.
-TEST(CWires, EncoderInputsByHandAreComparedToo) {
+TEST(CWires, ForcedEncoderInputsTriggerComparisons) {
     World world;
     world.write(0x00, 0x010F);
     world.write(0x04, 0x0020);  // WR2: comparison with EP
@@ -172,7 +172,7 @@ TEST(CWires, TheMachineReportsItsTruePositions) {
     EXPECT_EQ(value, 3);
 }
 
-TEST(CWires, AnAxleIsPushedByHandToTheNearestElectricalPhase) {
+TEST(CWires, APushedMotorStopsAtTheNearestElectricalPhase) {
     World world(with_switches);
     EXPECT_EQ(mr_part_set(world, "X.position_mm", 12.34), MR_OK) << mr_last_error();
     EXPECT_NEAR(world.part("X.position_mm"), 12.34, 32.0 / 640);
@@ -198,7 +198,7 @@ TEST(CWires, AnAxleIsPushedByHandToTheNearestElectricalPhase) {
     EXPECT_EQ(world.hash(), before);
 }
 
-TEST(CWires, FaultsHappenAndAreMended) {
+TEST(CWires, FaultsAreInjectedAndCleared) {
     World world(with_switches);
     world.set_up(1, 1000);
     world.command(1, 0x06, 3200);

@@ -27,7 +27,7 @@ void begin_motion(World& world) {
 
 // ---- copies and hashes
 
-TEST(CWorld, TheSameCallsGiveTheSameWorld) {
+TEST(CRack, TheSameCallsGiveTheSameEventTrace) {
     World a, b;
     begin_motion(a);
     begin_motion(b);
@@ -37,7 +37,7 @@ TEST(CWorld, TheSameCallsGiveTheSameWorld) {
     EXPECT_NE(a.hash(), b.hash());
 }
 
-TEST(CWorld, HowTimeIsCutDoesNotMatter) {
+TEST(CRack, TheDivisionOfTimeDoesNotMatter) {
     World whole, cut;
     begin_motion(whole);
     begin_motion(cut);
@@ -47,7 +47,7 @@ TEST(CWorld, HowTimeIsCutDoesNotMatter) {
     EXPECT_EQ(whole.peek("x.LP"), cut.peek("x.LP"));
 }
 
-TEST(CWorld, ACopyIsIndependentAndGoesTheSameWay) {
+TEST(CRack, ACopyIsIndependentAndContinuesIdentically) {
     World world;
     begin_motion(world);
     world.pass(80'000'000);
@@ -78,7 +78,7 @@ TEST(CWorld, ACopyIsIndependentAndGoesTheSameWay) {
 }
 
 /// The same motion over C, over the Session below it and over a plain rack: the same event trace and the same position.
-TEST(CWorld, IsTheWorldOfTheCppRack) {
+TEST(CRack, HasTheEventTraceOfTheCppRack) {
     World world;
     begin_motion(world);
     world.pass(900'000'000);
@@ -123,7 +123,7 @@ TEST(CWorld, IsTheWorldOfTheCppRack) {
 
 // ---- registers by name
 
-TEST(CWorld, EveryRegisterOfTheMapCanBePeekedOrIsRefusedByName) {
+TEST(CRack, EveryRegisterOfTheMapCanBePeekedOrIsRejectedByName) {
     World world;
     int known = 0;
     for (const RegisterInfo& reg : rack::find_card_kind("mcx314")->map().registers) {
@@ -137,7 +137,7 @@ TEST(CWorld, EveryRegisterOfTheMapCanBePeekedOrIsRefusedByName) {
     EXPECT_GE(known, 15);
 }
 
-TEST(CWorld, PeeksShowEachAxisWhateverTheBusShows) {
+TEST(CRack, PeeksReadEachAxisIndependentlyOfTheBus) {
     World world;
     world.command(1, 0x06, 11);
     world.command(2, 0x06, 22);
@@ -163,7 +163,7 @@ TEST(CWorld, PeeksShowEachAxisWhateverTheBusShows) {
 
 // ---- recordings
 
-TEST(CWorld, RecordsSignalsAtAnyTime) {
+TEST(CRack, RecordsSignalsAtAnyTime) {
     const std::string csv = temporary("a.csv"), vcd = temporary("b.vcd");
     World world;
     world.set_up(1, 4000);
@@ -200,7 +200,7 @@ TEST(CWorld, RecordsSignalsAtAnyTime) {
     std::filesystem::remove(vcd);
 }
 
-TEST(CWorld, RecordsInTheUnitOfTimeThatShowsEveryEdgeOrTheOneThatIsAskedFor) {
+TEST(CRack, RecordsWithATimescaleThatResolvesEveryEdgeOrTheRequestedOne) {
     const std::string vcd = temporary("u.vcd");
     World world;
     const auto unit_in = [&](World& of, const char* signals) {
@@ -227,7 +227,7 @@ TEST(CWorld, RecordsInTheUnitOfTimeThatShowsEveryEdgeOrTheOneThatIsAskedFor) {
     std::filesystem::remove(vcd);
 }
 
-TEST(CWorld, RecordsAFrameOfTheGratingBusInAUnitThatShowsEachOfItsWaits) {
+TEST(CRack, RecordsAGratingBusFrameWithATimescaleThatResolvesEachWait) {
     const std::string vcd = temporary("frame.vcd");
     World world("[card.c1]\ntype = \"grating_bus\"\nscales = 2\n");
     ASSERT_EQ(mr_trace_start(world, vcd.c_str(), "bus.read_n bus.hold"), MR_OK) << mr_last_error();
@@ -244,7 +244,7 @@ TEST(CWorld, RecordsAFrameOfTheGratingBusInAUnitThatShowsEachOfItsWaits) {
     std::filesystem::remove(vcd);
 }
 
-TEST(CWorld, RecordsNumbersAsRealsAndVoltagesInVolts) {
+TEST(CRack, RecordsNumbersAsRealsAndVoltagesInVolts) {
     const std::string vcd = temporary("v.vcd"), csv = temporary("v.csv");
     for (const std::string& path : {vcd, csv}) {
         World world("card.c1 = \"databoard4002\"");
@@ -273,7 +273,7 @@ TEST(CWorld, RecordsNumbersAsRealsAndVoltagesInVolts) {
     std::filesystem::remove(csv);
 }
 
-TEST(CWorld, ReportsConditionsWithTheirInstants) {
+TEST(CRack, ReportsConditionsWithTheirInstants) {
     struct Told {
         std::uint64_t number;
         std::int64_t at;
@@ -302,11 +302,11 @@ TEST(CWorld, ReportsConditionsWithTheirInstants) {
     EXPECT_EQ(mr_conditions(nullptr, 0, keep, &reported), MR_BAD_CALL);
 }
 
-TEST(CWorld, HasAVersion) {
+TEST(CRack, HasAVersion) {
     EXPECT_THAT(mr_version(), testing::MatchesRegex("[0-9]+[.][0-9]+[.][0-9]+"));
 }
 
-TEST(CWorld, RecordingWiresAndPulsesLeavesTheMotionAlone) {
+TEST(CRack, RecordingWiresAndPulsesDoesNotAffectTheMotion) {
     const std::string csv = temporary("c.csv");
     World watched, alone;
     ASSERT_EQ(mr_trace_start(watched, csv.c_str(), "*"), MR_OK);
@@ -327,7 +327,7 @@ TEST(CWorld, RecordingWiresAndPulsesLeavesTheMotionAlone) {
     std::filesystem::remove(csv);
 }
 
-TEST(CWorld, RecordingsThatCannotBeMadeAreRefused) {
+TEST(CRack, RecordingsThatCannotBeCreatedAreRejected) {
     World world;
     EXPECT_EQ(mr_trace_start(world, "a.txt", nullptr), MR_REFUSED);
     EXPECT_THAT(mr_last_error(), HasSubstr(".h5"));
@@ -343,7 +343,7 @@ TEST(CWorld, RecordingsThatCannotBeMadeAreRefused) {
     EXPECT_EQ(copy.hash(), world.hash()) << "nothing was left behind";
 }
 
-TEST(CWorld, ARecordingThatCannotBeginLeavesTheRackAsItWas) {
+TEST(CRack, ARecordingThatCannotStartDoesNotChangeTheRack) {
     World world;
     begin_motion(world);
     world.pass(123'456'789);
@@ -365,7 +365,7 @@ TEST(CWorld, ARecordingThatCannotBeginLeavesTheRackAsItWas) {
     EXPECT_FALSE(std::filesystem::exists(vcd));
 }
 
-TEST(CWorld, NullPointersAreBadCalls) {
+TEST(CRack, NullPointersAreBadCalls) {
     World world;
     double value = 0;
     std::uint64_t word = 0;
