@@ -64,7 +64,7 @@ std::set<std::string> declared_functions() {
 
 // ---- cards
 
-TEST(Databoard4002libCards, WithoutAPlaceTheSentenceSaysWhatToSet) {
+TEST(Databoard4002libCards, WithoutAnAddressTheMessageNamesTheVariableToSet) {
     ::unsetenv("MOTIONRACK_RACK");
     EXPECT_EQ(databoard4002_open(nullptr, 13), -1);
     EXPECT_THAT(databoard4002_last_error(), HasSubstr("databoard4002_open: No card is open, and the environment "
@@ -75,7 +75,7 @@ TEST(Databoard4002libCards, WithoutAPlaceTheSentenceSaysWhatToSet) {
     ::unsetenv("MOTIONRACK_RACK");
 }
 
-TEST(Databoard4002libCards, TwoCardsOfARackShareItsBusAndItsTime) {
+TEST(Databoard4002libCards, TwoCardsOfARackShareItsBusAndItsClock) {
     const Open first(two_cards), second(nullptr, 7);
     EXPECT_EQ(databoard4002_open(nullptr, 7), -1);
     EXPECT_THAT(databoard4002_last_error(), HasSubstr("Card 7 of this bus is open already"));
@@ -86,7 +86,7 @@ TEST(Databoard4002libCards, TwoCardsOfARackShareItsBusAndItsTime) {
     EXPECT_EQ(databoard4002_now_us(first.handle), databoard4002_now_us(second.handle));
 }
 
-TEST(Databoard4002libCards, WhatCannotBeOpenedIsNamed) {
+TEST(Databoard4002libCards, NamesACardThatCannotBeOpened) {
     const auto refused = [](const char* place, int number) {
         EXPECT_EQ(databoard4002_open(place, number), -1);
         return std::string(databoard4002_last_error());
@@ -124,7 +124,7 @@ TEST(Databoard4002libCommands, ClosingAndOpeningNeitherStopsNorResetsTheCard) {
     EXPECT_EQ(databoard4002_close(again), 0);
 }
 
-TEST(Databoard4002libCommands, EachMovesOrTellsWhatItsNameSays) {
+TEST(Databoard4002libCommands, EachCommandMovesOrReportsAsDocumented) {
     const Open card;
     EXPECT_EQ(databoard4002_set_target(card.handle, 250), 0) << databoard4002_last_error();
     EXPECT_EQ(databoard4002_go(card.handle), 0) << databoard4002_last_error();
@@ -157,7 +157,7 @@ TEST(Databoard4002libCommands, AResetClearsPositionAndRate) {
     EXPECT_EQ(databoard4002_move_to(card.handle, 10, 1000), 0) << "its reset mark is cleared";
 }
 
-TEST(Databoard4002libCommands, AnEventTellsThatAPositionWasReached) {
+TEST(Databoard4002libCommands, AnEventReportsThatAPositionWasReached) {
     const Open card;
     int word = -1;
     EXPECT_EQ(databoard4002_enable_events(card.handle, DATABOARD4002_POSITION, &word), 0);
@@ -219,7 +219,7 @@ const Refusal refusals[] = {
     {"set_wire", [](int card) { return databoard4002_set_wire(card, "c1.none", 1); }, "c1.none"},
 };
 
-TEST(Databoard4002libErrors, AWrongValueWritesNothingAndIsNamed) {
+TEST(Databoard4002libErrors, AnInvalidValueIsNamedAndWritesNothing) {
     const Open card;
     for (const Refusal& each : refusals) {
         databoard4002_clear_error();
@@ -231,7 +231,7 @@ TEST(Databoard4002libErrors, AWrongValueWritesNothingAndIsNamed) {
     }
 }
 
-TEST(Databoard4002libErrors, EachThreadHasItsOwnSentence) {
+TEST(Databoard4002libErrors, EachThreadHasItsOwnMessage) {
     const Open card;
     databoard4002_set_rate(card.handle, -1);
     const std::string here = databoard4002_last_error();
@@ -281,7 +281,7 @@ TEST(Databoard4002libStops, AnotherThreadStopsALongMove) {
     EXPECT_EQ(peek(card, "MOVING"), 0);
 }
 
-TEST(Databoard4002libStops, AWaitForOneCardLetsTheStopOfAnotherPass) {
+TEST(Databoard4002libStops, AWaitForOneCardDoesNotDelayTheStopOfAnother) {
     const Open waiting(two_cards, 7), other(nullptr, 13);
     EXPECT_EQ(databoard4002_set_rate(waiting.handle, 1), 0);
     std::string sentence;
@@ -306,7 +306,7 @@ TEST(Databoard4002lib, HasEachFunctionOfTheDeclaration) {
         EXPECT_EQ(declared.count("databoard4002_" + std::string(function.name)), 1u) << function.name;
 }
 
-TEST(Databoard4002lib, ShowsTheFunctionsOfItsHeaderAndNothingElse) {
+TEST(Databoard4002lib, ExportsTheFunctionsOfItsHeaderOnly) {
     const std::set<std::string> declared = declared_functions();
     std::FILE* pipe = ::popen("nm -D --defined-only --format=just-symbols '" DATABOARD4002LIB_LIBRARY "'", "r");
     ASSERT_NE(pipe, nullptr);

@@ -35,7 +35,7 @@ constexpr int home_input = 0x0002;  // IN0 enabled, active low
 
 // ---- chips
 
-TEST(Mcx314libChips, WithoutARackTheFirstFunctionReportsWhatToSet) {
+TEST(Mcx314libChips, WithoutARackTheFirstFunctionNamesTheVariableToSet) {
     ::unsetenv("MOTIONRACK_RACK");
     mcx314_clear_error();
     SetRange(800'000);
@@ -62,7 +62,7 @@ TEST(Mcx314libChips, TheFirstFunctionOpensTheRackOfTheEnvironment) {
     EXPECT_EQ(mcx314_close(std::stoi(reported.substr(reported.find("are: ") + 5))), 0);
 }
 
-TEST(Mcx314libChips, TwoChipsOfARackHaveOneTime) {
+TEST(Mcx314libChips, TwoChipsOfARackShareItsClock) {
     const Open left(two_cards), right(nullptr);
     EXPECT_EQ(mcx314_open(nullptr, nullptr), -1);
     EXPECT_THAT(mcx314_last_error(), HasSubstr("left (open already), right (open already)"));
@@ -100,7 +100,7 @@ TEST(Mcx314libChips, ARealCardThatDoesNotAnswerIsNotOpened) {
     EXPECT_THAT(mcx314_last_error(), HasSubstr("Every register reads FFFFh: no card answers at "));
 }
 
-TEST(Mcx314libChips, ARealCardThatAnswersNoMoreIsAnErrorOfEachCall) {
+TEST(Mcx314libChips, ARealCardThatStopsAnsweringIsAnErrorOfEachCall) {
     const FileAsCard file;
     file.fill('\0');
     const int handle = mcx314_open(file.place().c_str(), nullptr);
@@ -121,7 +121,7 @@ TEST(Mcx314libChips, ARealCardThatAnswersNoMoreIsAnErrorOfEachCall) {
     EXPECT_EQ(mcx314_close(handle), 0);
 }
 
-TEST(Mcx314libChips, ChipsOfTwoRacksHaveTimesOfTheirOwn) {
+TEST(Mcx314libChips, ChipsOfTwoRacksHaveTheirOwnClocks) {
     const Open one, other(two_cards, "right");
     set_up();
     EXPECT_EQ(mcx314_advance_ms(5000), 0);
@@ -198,7 +198,7 @@ TEST(Mcx314libErrors, TheHandlerMayCallTheLibrary) {
     EXPECT_EQ(mcx314_moving(all), 0);
 }
 
-TEST(Mcx314libErrors, EachThreadHasItsOwnSentence) {
+TEST(Mcx314libErrors, EachThreadHasItsOwnMessage) {
     const Open chip;
     SetV(x, 9000);
     const std::string here = mcx314_last_error();
@@ -211,7 +211,7 @@ TEST(Mcx314libErrors, EachThreadHasItsOwnSentence) {
     EXPECT_EQ(mcx314_last_error(), here);
 }
 
-TEST(Mcx314libTime, ALoopThatPollsComesToAnEnd) {
+TEST(Mcx314libTime, APollingLoopEnds) {
     const Open chip;
     set_up();
     TCurve_F(x, 100, 4000, 400, 2000);
@@ -221,13 +221,13 @@ TEST(Mcx314libTime, ALoopThatPollsComesToAnEnd) {
     EXPECT_GT(looks, 10);
 }
 
-TEST(Mcx314libTime, TheWorldRunsAsLongAsAnIntHasMilliseconds) {
+TEST(Mcx314libTime, TheRackRunsForTheMaximumIntOfMilliseconds) {
     const Open chip;
     EXPECT_EQ(mcx314_advance_ms(2'147'483'647), 0) << mcx314_last_error();
     EXPECT_EQ(mcx314_now_us(), 2'147'483'647'000);
 }
 
-TEST(Mcx314libTime, AWaitThatIsTooShortReportsIt) {
+TEST(Mcx314libTime, AWaitThatTimesOutReportsIt) {
     const Open chip;
     set_up();
     TCurve_C(x, 100, 4000, 400);
@@ -288,7 +288,7 @@ TEST(Mcx314libHome, AnAxisWithoutASwitchReportsThatNoneWasFound) {
     EXPECT_EQ(mcx314_moving(all), 0);
 }
 
-TEST(Mcx314libManual, AJogEndsWhenItIsNotRenewed) {
+TEST(Mcx314libManual, AJogEndsWithoutRenewal) {
     const Open chip;
     SetRange(800'000);
     for (int i = 0; i < 5; ++i) {
@@ -321,7 +321,7 @@ TEST(Mcx314libManual, AHomingContinuesWhileItIsRenewed) {
 
 // ---- contours, patterns
 
-TEST(Mcx314libContour, LinesAndArcsEndWhereTheyShould) {
+TEST(Mcx314libContour, LinesAndArcsEndAtTheirFinishPoints) {
     const Open chip;
     SetRange(800'000);
     const MCX314_CONTOUR speeds = {100, 1000, 200, 0};
@@ -350,7 +350,7 @@ TEST(Mcx314libPattern, ThePulsesAreThoseOfTheBits) {
 
 // ---- the library's names
 
-TEST(Mcx314lib, ShowsTheFunctionsOfItsHeaderAndNothingElse) {
+TEST(Mcx314lib, ExportsTheFunctionsOfItsHeaderOnly) {
     const std::set<std::string> declared = declared_functions();
     std::FILE* pipe = ::popen("nm -D --defined-only --format=just-symbols '" MCX314LIB_LIBRARY "'", "r");
     ASSERT_NE(pipe, nullptr);

@@ -154,7 +154,7 @@ const Row rows[] = {
      {{"x.WR1", 0xFF00, 0xF000}}},
 };
 
-TEST(Mcx314lib, EveryFunctionWritesWhatItShould) {
+TEST(Mcx314lib, EveryFunctionWritesTheDocumentedRegisters) {
     for (const Row& row : rows) {
         const Open chip;
         set_up();

@@ -208,7 +208,7 @@ TEST(Mcx314lib, ARefusedCallStatesTheRangeAndWritesNothing) {
 }
 
 /// Functions of the header without invalid arguments, and those rejected in bench_test.cpp.
-TEST(Mcx314lib, EveryFunctionThatCanBeRefusedIsAmongThese) {
+TEST(Mcx314lib, EveryFunctionThatCanBeRejectedIsInTheTable) {
     std::set<std::string> left = declared_functions();
     for (const Refused& row : refusals) left.erase(row.function);
     EXPECT_THAT(left, testing::UnorderedElementsAre("AutoDec", "RESET", "mcx314_open", "mcx314_select", "mcx314_close",

@@ -42,7 +42,7 @@ TEST(Mcx314libDrives, AnSCurveDrivesSeveralAxes) {
     EXPECT_EQ(place_of(x), 0);
 }
 
-TEST(Mcx314libDrives, AStopDeceleratesAndTheOtherDoesNot) {
+TEST(Mcx314libDrives, SlowStopDeceleratesAndImmediateStopDoesNot) {
     const Open chip;
     set_up();
     const auto pulses_after = [](int (*stop)(int)) {

@@ -51,7 +51,7 @@ TEST(Rtc5simCards, CommandsGoToTheirCard) {
     EXPECT_EQ(session.card[0].x.size(), session.card[2].x.size()) << "time is one";
 }
 
-TEST(Rtc5simCards, ACardThatIsNotThereIsRefused) {
+TEST(Rtc5simCards, AMissingCardIsRejected) {
     const Session session;
     EXPECT_EQ(select_rtc(2), 0u);
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("select_rtc: unknown card 2"));
@@ -103,7 +103,7 @@ TEST(Rtc5simTime, AQueryTakesTheStatedTime) {
     EXPECT_EQ(rtc5sim_now_us(), 1000);
 }
 
-TEST(Rtc5simTime, RunningToRestReportsWhetherTheCardRests) {
+TEST(Rtc5simTime, RunningToStandstillReportsWhetherTheCardIsIdle) {
     const Session session;
     load_line(10'000);
     execute_list(1);
@@ -114,7 +114,7 @@ TEST(Rtc5simTime, RunningToRestReportsWhetherTheCardRests) {
 
 // ---- errors
 
-TEST(Rtc5simErrors, RefusalsAreReportedAndKeptInTheErrorBits) {
+TEST(Rtc5simErrors, RejectionsAreReportedAndLatchedInTheErrorBits) {
     const Session session;
     const UINT before = get_input_pointer();
     mark_abs(1, 2);
@@ -148,7 +148,7 @@ TEST(Rtc5simErrors, RefusalsAreReportedAndKeptInTheErrorBits) {
     EXPECT_EQ(get_error(), UINT{RTC5_PARAM_ERROR});
 }
 
-TEST(Rtc5simErrors, TheHandlerGetsTheSentenceAndMayCallTheLibrary) {
+TEST(Rtc5simErrors, TheHandlerReceivesTheMessageAndMayCallTheLibrary) {
     const Session session;
     std::string seen;
     rtc5sim_on_error(
@@ -165,7 +165,7 @@ TEST(Rtc5simErrors, TheHandlerGetsTheSentenceAndMayCallTheLibrary) {
     EXPECT_EQ(elsewhere, "") << "each thread has its own";
 }
 
-TEST(Rtc5simErrors, ASamplesHandlerCannotDisturbTheRun) {
+TEST(Rtc5simErrors, ASampleHandlerDoesNotAffectTheRun) {
     const Session session;
     static int refused;
     refused = 0;
@@ -323,7 +323,7 @@ TEST(Rtc5simInputs, CountsWordsStartsAndStopsArrive) {
     EXPECT_EQ(get_startstop_info(), 2u | 8u | 16u | 512u);
 }
 
-TEST(Rtc5simInputs, FlagsHaveWords) {
+TEST(Rtc5simInputs, FlagsHaveNames) {
     EXPECT_STREQ(rtc5sim_marking_info_text(0), "");
     EXPECT_STREQ(rtc5sim_marking_info_text(0x42),
                  "FLY_X_OVERFLOW: the corrected X was above 524287\nLIMIT_Y_MIN: the corrected Y was below Ymin\n");
@@ -343,7 +343,7 @@ std::set<std::string> declared_functions(const std::string& path) {
     return out;
 }
 
-TEST(Rtc5simNames, ShowsTheFunctionsOfItsHeadersAndNothingElse) {
+TEST(Rtc5simNames, ExportsTheFunctionsOfItsHeadersOnly) {
     std::set<std::string> all = declared_functions(header);
     EXPECT_GT(all.size(), 130u);
     all.merge(declared_functions(source_dir() + "/motionrack/frontends/rtc5sim/rtc5sim_virtual.h"));
@@ -360,7 +360,7 @@ TEST(Rtc5simNames, ShowsTheFunctionsOfItsHeadersAndNothingElse) {
     EXPECT_EQ(shown, all);
 }
 
-TEST(Rtc5simNames, EachCommandHasItsTwinWithACardNumber) {
+TEST(Rtc5simNames, EachCommandHasAVariantWithACardNumber) {
     const std::set<std::string> of_process = {"init_rtc5_dll", "free_rtc5_dll", "rtc5_count_cards", "select_rtc"};
     std::set<std::string> wanted;
     for (const std::string& name : declared_functions(header))

@@ -84,7 +84,7 @@ double worst_of_a_mark(double direction_deg, Correct correct) {
     return std::fmax(max_error, std::fmax(std::fabs(furthest - 10), std::fabs(nearest)));
 }
 
-TEST(Rtc5simCalibration, ReadingAnEmptyLocationReportsWhatMustComeFirst) {
+TEST(Rtc5simCalibration, ReadingAnEmptyLocationReportsTheRequiredCommand) {
     const Session session;
     ASSERT_EQ(rtc5sim_open(standing_belt(0, false).c_str()), 0) << rtc5sim_last_error();
     drive(100);
@@ -128,7 +128,7 @@ TEST(Rtc5simCalibration, ReportsAMissingWordWithoutASender) {
     EXPECT_STREQ(rtc5sim_last_error(), "");
 }
 
-TEST(Rtc5simCalibration, AsPrintedForOneAxisAlongXAndAlongY) {
+TEST(Rtc5simCalibration, MatchesThePrintedExampleForXAndForY) {
     for (const double direction_deg : {0.0, 90.0, 180.0}) {
         SCOPED_TRACE(direction_deg);
         const Session session;
@@ -158,7 +158,7 @@ Mm increments(double direction_deg) {
     return {(end.x - start.x) / (to.x - from.x), (end.y - start.y) / (to.y - from.y)};
 }
 
-TEST(Rtc5simCalibration, AsPrintedForBothAxesOfOneWord) {
+TEST(Rtc5simCalibration, MatchesThePrintedExampleForBothAxesOfOneWord) {
     const double direction_deg = 210;
     const Session session;
     ASSERT_EQ(rtc5sim_open(standing_belt(direction_deg, true).c_str()), 0) << rtc5sim_last_error();

@@ -70,7 +70,7 @@ TEST(Rtc5ControlTable, HasTheNamesAndParametersOfTheHeader) {
     EXPECT_EQ(rtc5::find_control_command("jump_abs"), nullptr) << "a list command";
 }
 
-TEST(Rtc5ControlTable, TheCardTakesBothEndsOfEachRangeAndNothingBeyond) {
+TEST(Rtc5ControlTable, TheCardAcceptsBothEndsOfEachRangeAndNothingBeyond) {
     for (const ControlCommand& command : rtc5::control_commands()) {
         SCOPED_TRACE(command.name);
         const std::vector<double> min_values = min_of(command);
@@ -105,7 +105,7 @@ TEST(Rtc5ControlTable, TheCardTakesBothEndsOfEachRangeAndNothingBeyond) {
     }
 }
 
-TEST(Rtc5ControlTable, EachCommandAnswersTheStatedNumberOfNumbers) {
+TEST(Rtc5ControlTable, EachCommandReturnsTheDeclaredNumberOfValues) {
     for (const ControlCommand& command : rtc5::control_commands()) {
         SCOPED_TRACE(command.name);
         Engine card;

@@ -303,7 +303,7 @@ Did by_card(const Row* control, const Row* in_list) {
     return did;
 }
 
-TEST(Rtc5simCommands, EveryListCommandDoesWhatTheCardDoes) {
+TEST(Rtc5simCommands, EveryListCommandHasTheEffectOfTheCardsCommand) {
     std::set<std::string> seen;
     for (const Row& row : list_rows) {
         SCOPED_TRACE(row.name);
@@ -316,7 +316,7 @@ TEST(Rtc5simCommands, EveryListCommandDoesWhatTheCardDoes) {
     EXPECT_EQ(seen.size(), rtc5::op_count - 1) << "all but the empty place";
 }
 
-TEST(Rtc5simCommands, EveryControlCommandDoesWhatTheCardDoes) {
+TEST(Rtc5simCommands, EveryControlCommandHasTheEffectOfTheCardsCommand) {
     for (const Row& row : control_rows) {
         SCOPED_TRACE(row.name);
         const Did library = by_library(&row, nullptr), card = by_card(&row, nullptr);
@@ -325,7 +325,7 @@ TEST(Rtc5simCommands, EveryControlCommandDoesWhatTheCardDoes) {
     }
 }
 
-TEST(Rtc5simCommands, TheCommandsOfTheseTestsShowInWhatTheCardDoes) {
+TEST(Rtc5simCommands, TheTestedCommandsChangeTheOutputOfTheCard) {
     // The comparison must detect an exchanged or missing parameter.
     const Did without = by_card(nullptr, nullptr);
     for (const Row& row : list_rows)

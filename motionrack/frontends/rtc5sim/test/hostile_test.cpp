@@ -24,7 +24,7 @@ void refused(UINT bit, const char* words) {
     rtc5sim_clear_error();
 }
 
-TEST(Rtc5simHostile, NumbersThatAreNoneAreNotPutIntoTheList) {
+TEST(Rtc5simHostile, NonFiniteNumbersAreNotAddedToTheList) {
     const Session session;
     const UINT before = get_input_pointer();
     void (*const calls[])(double) = {[](double v) { arc_abs(0, 0, v); },
@@ -48,7 +48,7 @@ TEST(Rtc5simHostile, NumbersThatAreNoneAreNotPutIntoTheList) {
     EXPECT_EQ(get_input_pointer(), before);
 }
 
-TEST(Rtc5simHostile, NumbersThatAreNoneChangeNoSetting) {
+TEST(Rtc5simHostile, NonFiniteNumbersChangeNoSetting) {
     const Session session;
     void (*const calls[])(double) = {[](double v) { set_matrix(1, v, 0, 0, 1, 1); },
                                      [](double v) { set_angle(1, v, 1); },
@@ -107,7 +107,7 @@ TEST(Rtc5simHostile, SignalsChannelsAndPositionsAreChecked) {
     EXPECT_EQ(rtc5sim_sent(1, nullptr), -1);
 }
 
-TEST(Rtc5simHostile, ListsAreOpenedAndStartedOnlyWhereTheyAre) {
+TEST(Rtc5simHostile, ListsAreOpenedAndStartedWithinTheirMemoryOnly) {
     const Session session;
     rtc5sim_question_us(0);
     EXPECT_EQ(load_list(1, 1 << 20), 0u),
@@ -133,7 +133,7 @@ TEST(Rtc5simHostile, ListsAreOpenedAndStartedOnlyWhereTheyAre) {
     EXPECT_EQ(get_list_space(), (1u << 20) - 4);
 }
 
-TEST(Rtc5simHostile, WordsOfAnotherKindMoveNothingOutOfTheField) {
+TEST(Rtc5simHostile, WordsOfAnotherTypeDoNotMoveTheSpot) {
     const Session session;
     set_multi_mcbsp_in(0, 0, 0);
     for (const std::uint32_t type : {3u, 4u, 5u, 6u, 7u})
@@ -155,7 +155,7 @@ TEST(Rtc5simHostile, WordsOfAnotherKindMoveNothingOutOfTheField) {
     EXPECT_EQ(get_error(), 0u);
 }
 
-TEST(Rtc5simHostile, FilesThatAreNoTablesLeaveTheOldOne) {
+TEST(Rtc5simHostile, InvalidTableFilesLeaveTheOldTable) {
     const Session session;
     const auto folder = std::filesystem::temp_directory_path() / ("rtc5sim_hostile_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder);

@@ -62,7 +62,7 @@ TEST(Rtc5simRack, AJobRunsOnTheWiresAndMarksThePart) {
     }
 }
 
-TEST(Rtc5simRack, TheEncoderIsTheBeltsAndThePartsStartTheList) {
+TEST(Rtc5simRack, TheEncoderFollowsTheBeltAndPartsStartTheList) {
     const Session session;
     ASSERT_EQ(rtc5sim_open(line), 0);
     load_square(0);
@@ -84,7 +84,7 @@ TEST(Rtc5simRack, TheEncoderIsTheBeltsAndThePartsStartTheList) {
     EXPECT_THAT(rtc5sim_last_error(), HasSubstr("rtc5sim_part_set"));
 }
 
-TEST(Rtc5simRack, WhatCannotBeOpenedLeavesTheCardsAsTheyAre) {
+TEST(Rtc5simRack, AFailedOpenDoesNotChangeTheCards) {
     const Session session("3");
     EXPECT_EQ(rtc5_count_cards(), 3u);
     EXPECT_EQ(rtc5sim_open("[card.scan]\ntype = \"rtc5\"\nheight = 3\n"), -1);

@@ -14,7 +14,7 @@ class StoppedSenderPort : public SenderPorts, public testing::WithParamInterface
 INSTANTIATE_TEST_SUITE_P(Over, StoppedSenderPort, testing::Bool(),
                          [](const auto& each) { return each.param ? "TheTerminal" : "Tcp"; });
 
-TEST_P(StoppedSenderPort, HasNoFurtherLineDrivenAfterAStop) {
+TEST_P(StoppedSenderPort, ExecutesNoFurtherLineAfterAStop) {
     start();
     const auto pulses = [this] {
         std::promise<std::int64_t> out;

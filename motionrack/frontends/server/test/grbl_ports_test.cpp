@@ -13,7 +13,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST_F(SenderPorts, GreetAndDriveOverTcp) {
+TEST_F(SenderPorts, SendTheWelcomeLineAndExecuteLinesOverTcp) {
     start();
     EXPECT_EQ(ports_->sender(), "none");
     SenderClient client = tcp();
@@ -23,7 +23,7 @@ TEST_F(SenderPorts, GreetAndDriveOverTcp) {
     EXPECT_THAT(client.until("Idle"), HasSubstr("MPos:10.000,0.000,0.000"));
 }
 
-TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
+TEST_F(SenderPorts, ResetTheSessionForEachTerminalClient) {
     start();
     for (int i = 0; i < 3; ++i) {
         while (ports_->sender() != "none") std::this_thread::yield();
@@ -62,7 +62,7 @@ TEST_F(SenderPorts, KeepTheTerminalRaw) {
     EXPECT_EQ(client.ask("\r\n", "ok\r\nok\r\n"), "ok\r\nok\r\n");  // each of the two ends a line
 }
 
-TEST_F(SenderPorts, LetOthersLookOnAndHoldButNotWriteNorReset) {
+TEST_F(SenderPorts, AllowObserversToReadAndHoldButNotToWriteOrReset) {
     start();
     SenderClient writer = tcp();
     writer.receive(banner);
@@ -79,7 +79,7 @@ TEST_F(SenderPorts, LetOthersLookOnAndHoldButNotWriteNorReset) {
     EXPECT_THAT(writer.until("Hold"), HasSubstr("<Hold"));
 }
 
-TEST_F(SenderPorts, LetResetsOfOnlookersStopTheMachineWhereThatIsChosen) {
+TEST_F(SenderPorts, AllowResetsOfObserversToStopTheMachineIfConfigured) {
     settings_.resets_stop_all = true;
     start();
     SenderClient writer = tcp();
@@ -91,7 +91,7 @@ TEST_F(SenderPorts, LetResetsOfOnlookersStopTheMachineWhereThatIsChosen) {
     EXPECT_THAT(writer.receive("help]\r\n"), HasSubstr("ALARM:3\r\n"));
 }
 
-TEST_F(SenderPorts, LetTheNextOneWriteWhenTheWriterHasGone) {
+TEST_F(SenderPorts, AllowTheNextClientToWriteAfterTheWriterDisconnects) {
     start();
     {
         SenderClient first = tcp();
@@ -143,7 +143,7 @@ TEST_F(SenderPorts, EnableNoDriveBeforeALineMoves) {
     EXPECT_NE(state(), operate::MachineState::disabled);
 }
 
-TEST_F(SenderPorts, InformASenderWhoStoppedIt) {
+TEST_F(SenderPorts, ReportToASenderWhichUserStoppedIt) {
     start();
     SenderClient client = tcp();
     client.say("G4 P100000\n");
@@ -157,7 +157,7 @@ TEST_F(SenderPorts, InformASenderWhoStoppedIt) {
     EXPECT_EQ(client.ask("G0 X1\n"), "ok\r\n");
 }
 
-TEST_F(SenderPorts, LockASenderThatLosesControlInItsWork) {
+TEST_F(SenderPorts, LockASenderThatLosesControlDuringItsJob) {
     start();
     SenderClient client = tcp();
     EXPECT_EQ(client.ask("G1 X1 F600\nM0\n"), banner + "ok\r\n");
@@ -168,13 +168,13 @@ TEST_F(SenderPorts, LockASenderThatLosesControlInItsWork) {
     EXPECT_EQ(client.ask("~G1 X0\n", "\r\n"), "error:9\r\n");
 }
 
-TEST_F(SenderPorts, LetOnlyTheirOwnerOpenTheTerminal) {
+TEST_F(SenderPorts, AllowOnlyTheirOwnerToOpenTheTerminal) {
     start();
     EXPECT_EQ(std::filesystem::status(settings_.link).permissions(),
               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
-TEST_F(SenderPorts, RefuseLinesOfASenderWhileAnotherHoldsControlOfAMachineThatMoves) {
+TEST_F(SenderPorts, RejectLinesOfASenderWhileAnotherClientHasControlOfAMovingMachine) {
     start();
     SenderClient first = tcp();
     first.receive(banner);
@@ -197,7 +197,7 @@ TEST_F(SenderPorts, ReportWhichSettingASenderHasChanged) {
     EXPECT_THAT(reported(), AllOf(HasSubstr("sender on"), HasSubstr("$32 is 1")));
 }
 
-TEST_F(SenderPorts, TakeALineOfAMegabyteWithoutHarm) {
+TEST_F(SenderPorts, RejectALineOfAMegabyteAndContinue) {
     start();
     SenderClient client = tcp();
     client.receive(banner);
@@ -214,7 +214,7 @@ TEST_F(SenderPorts, DoNotOverwriteAFile) {
     EXPECT_THAT(opened.error().message, HasSubstr("is not a symbolic link"));
 }
 
-TEST_F(SenderPorts, DoNotReplaceALinkThatLeadsElsewhere) {
+TEST_F(SenderPorts, DoNotReplaceALinkToAnotherTarget) {
     std::filesystem::create_symlink("/etc/passwd", settings_.link);
     const auto opened = GrblPorts::open(settings_, *machine_, lease_);
     ASSERT_FALSE(opened);
@@ -222,7 +222,7 @@ TEST_F(SenderPorts, DoNotReplaceALinkThatLeadsElsewhere) {
     EXPECT_EQ(std::filesystem::read_symlink(settings_.link), "/etc/passwd");
 }
 
-TEST_F(SenderPorts, LeaveTheLinkToTheProgramThatHasIt) {
+TEST_F(SenderPorts, DoNotReplaceTheLinkOfAnotherRunningProgram) {
     start();
     const std::filesystem::path leads_to = std::filesystem::read_symlink(settings_.link);
     auto machine = *operate::Machine::make(
@@ -235,7 +235,7 @@ TEST_F(SenderPorts, LeaveTheLinkToTheProgramThatHasIt) {
     EXPECT_EQ(std::filesystem::read_symlink(settings_.link), leads_to);
 }
 
-TEST_F(SenderPorts, ReplaceAnOldLinkAndTakeTheirOwnAway) {
+TEST_F(SenderPorts, ReplaceAStaleLinkAndRemoveTheirOwnAtTheEnd) {
     std::filesystem::create_symlink("/dev/pts/of-yesterday", settings_.link);
     start();
     EXPECT_THAT(std::filesystem::read_symlink(settings_.link).string(), StartsWith("/dev/pts/"));

@@ -52,7 +52,7 @@ TEST(HostileRequest, ThatIsTooLongIsRejectedWhileItIsReceived) {
     EXPECT_EQ(chunked.answer().status, 413);
 }
 
-TEST(HostileRequest, ThatDoesNotEndIsEndedByTheServer) {
+TEST(HostileRequest, ThatDoesNotEndIsClosedByTheServer) {
     Running running([](ServerSettings& settings) {
         settings.limits.header = settings.limits.body = settings.limits.idle = std::chrono::milliseconds(20);
     });
@@ -114,7 +114,7 @@ TEST(HostileStream, IsRefusedOrEndedWithAReason) {
               426);
 }
 
-TEST(HostileStream, IsRefusedWithASentenceWhereItsHandshakeIsNone) {
+TEST(HostileStream, WithAnInvalidHandshakeIsRejectedWithAMessage) {
     const Running running;
     const std::string head =
         "GET /api/stream HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n";
@@ -165,7 +165,7 @@ TEST(HostileStream, ThatSendsTooMuchIsRejectedButItsStopIsExecuted) {
     EXPECT_TRUE(client.exchange({{"command", "stop"}}).value("done", false));
 }
 
-TEST(HostileStream, ThatAsksTogetherWithOthersOfItsAddressIsRefused) {
+TEST(HostileStream, AboveTheRateLimitOfItsAddressIsRejected) {
     Running running([](ServerSettings& settings) {
         settings.limits.requests_at_once = 4;
         settings.limits.requests_per_second = 1e-6;

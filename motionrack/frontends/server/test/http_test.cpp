@@ -23,7 +23,7 @@ class PageServer : public testing::Test {
     WebClient client = running.client();
 };
 
-TEST_F(PageServer, GivesAPageThatRunsNothingFromElsewhere) {
+TEST_F(PageServer, ServesAPageThatLoadsNothingFromOtherHosts) {
     const WebAnswer page = client.ask("GET", "/");
     EXPECT_EQ(page.status, 200);
     EXPECT_THAT(page.body, HasSubstr("its page has not been built"));
@@ -51,7 +51,7 @@ TEST_F(PageServer, AnswersRequestsAfterAHeadRequestInOrder) {
     EXPECT_EQ(client.receive().kind, -1) << "nothing comes behind it";
 }
 
-TEST_F(PageServer, GivesABrokenHeadRequestNoBody) {
+TEST_F(PageServer, AnswersAnInvalidHeadRequestWithoutABody) {
     for (const std::string& request :
          {std::string("HEAD / HTTP/1.1\r\nHost localhost\r\n\r\n"),
           "HEAD / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(9000, 'x') + "\r\n\r\n"}) {
@@ -96,7 +96,7 @@ TEST_F(PageServer, PairsByACodeAndAcceptsCommandsWithItsToken) {
     EXPECT_TRUE(running.audited("pair", 403));
 }
 
-TEST_F(PageServer, SlowsDownWhoTriesCodes) {
+TEST_F(PageServer, LimitsTheRateOfPairingAttempts) {
     WebAnswer answer;
     for (int i = 0; i < 6; ++i) answer = client.ask("POST", "/api/pair", "{\"code\":\"AAAA-AAAA\",\"name\":\"eve\"}");
     EXPECT_EQ(answer.status, 429);
@@ -104,7 +104,7 @@ TEST_F(PageServer, SlowsDownWhoTriesCodes) {
     EXPECT_EQ(client.ask("POST", "/api/pair", "{\"name\":\"eve\"}").status, 400);
 }
 
-TEST_F(PageServer, KnowsNoTokenThatIsMadeUpExpiredOrRevoked) {
+TEST_F(PageServer, RejectsForgedExpiredAndRevokedTokens) {
     EXPECT_EQ(client.ask("GET", "/api/status", "", bearer(std::string(64, '0'))).status, 401);
     EXPECT_EQ(client.ask("GET", "/api/status", "", "Authorization: Basic YTpi\r\n").status, 401);
     const std::string anna = running.token("anna"), bert = running.token("bert", Role::observe);
@@ -120,7 +120,7 @@ TEST_F(PageServer, KnowsNoTokenThatIsMadeUpExpiredOrRevoked) {
     EXPECT_TRUE(running.audited("token", 401));
 }
 
-TEST_F(PageServer, InvitesWithTheRoleThatWasAskedFor) {
+TEST_F(PageServer, InvitesWithTheRequestedRole) {
     const std::string anna = running.token("anna");
     const WebAnswer invited = client.ask("POST", "/api/invite", "{\"role\":\"operate\"}", bearer(anna));
     ASSERT_EQ(invited.status, 200) << invited.body;
@@ -138,7 +138,7 @@ TEST_F(PageServer, StopsForEveryClient) {
     EXPECT_EQ(other.ask("GET", "/api/stop").status, 405);
 }
 
-TEST_F(PageServer, ReportsWhatIsWrongWithARequest) {
+TEST_F(PageServer, ReportsTheErrorOfAnInvalidRequest) {
     const std::string anna = bearer(running.token("anna"));
     EXPECT_EQ(client.ask("GET", "/api/nothing").status, 404);
     const WebAnswer former = client.ask("POST", "/api/begin", "", anna);
@@ -158,7 +158,7 @@ TEST_F(PageServer, ReportsWhatIsWrongWithARequest) {
                 HasSubstr("nested deeper"));
 }
 
-TEST_F(PageServer, IsAskedByItsOwnPagesOnly) {
+TEST_F(PageServer, AcceptsRequestsOfItsOwnPagesOnly) {
     const auto with = [&](const std::string& host, const std::string& origin) {
         client.host = host;
         return client.ask("GET", "/api/status", "", origin.empty() ? "" : "Origin: " + origin + "\r\n").status;
@@ -259,7 +259,7 @@ TEST_F(PageFolder, IsServedWithoutARackToThisComputerAlone) {
     thread.join();
 }
 
-TEST_F(PageFolder, WithoutAnIndexIsNoPage) {
+TEST_F(PageFolder, WithoutAnIndexIsRejected) {
     EXPECT_THAT(Page::read(folder / "page/assets").error().message, HasSubstr("no index.html"));
     EXPECT_FALSE(Page::read(folder / "nowhere"));
 }
@@ -279,7 +279,7 @@ TEST(ServersAddress, IsLoopbackUnlessThereIsTls) {
     }
 }
 
-TEST(ServersPort, ThatIsTakenIsReportedWithWhatToDo) {
+TEST(ServersPort, InUseIsReportedWithTheRemedy) {
     Running running;
     try {
         Running second([&](ServerSettings& settings) { settings.port = running.port(); });

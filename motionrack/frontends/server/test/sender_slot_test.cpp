@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST_F(SenderPorts, GiveThePortToWhoSpeaksWhereItsHolderIsSilent) {
+TEST_F(SenderPorts, GrantTheSlotToASpeakingClientIfItsHolderIsSilent) {
     settings_.silence = std::chrono::milliseconds(0);
     start();
     SenderClient silent = tcp();
@@ -26,7 +26,7 @@ TEST_F(SenderPorts, GiveThePortToWhoSpeaksWhereItsHolderIsSilent) {
     EXPECT_THAT(silent.receive("accepted]\r\n"), StartsWith("[MSG:Another sender has control."));
 }
 
-TEST_F(SenderPorts, GiveThePortToAKnownSenderWhenASilentConnectionGoes) {
+TEST_F(SenderPorts, GrantTheSlotToAKnownSenderWhenASilentConnectionCloses) {
     start();
     auto silent = std::make_unique<SenderClient>(tcp());
     silent->receive(banner);
@@ -41,7 +41,7 @@ TEST_F(SenderPorts, GiveThePortToAKnownSenderWhenASilentConnectionGoes) {
     EXPECT_THAT(sender.until("Idle|MPos:2.000"), HasSubstr("MPos:2.000"));
 }
 
-TEST_F(SenderPorts, GiveThePortToAKnownSenderWhenItsHolderIsSilentForTooLong) {
+TEST_F(SenderPorts, GrantTheSlotToAKnownSenderWhenItsHolderIsSilentForTooLong) {
     settings_.silence = std::chrono::seconds(1);
     start();
     SenderClient silent = tcp();
@@ -57,7 +57,7 @@ TEST_F(SenderPorts, GiveThePortToAKnownSenderWhenItsHolderIsSilentForTooLong) {
     EXPECT_THAT(silent.receive("accepted]\r\n"), HasSubstr("[MSG:Another sender has control."));
 }
 
-TEST_F(SenderPorts, ExecuteNoRestOfALineWhoseBeginningWasIgnored) {
+TEST_F(SenderPorts, DiscardTheRemainderOfALineWhoseBeginningWasIgnored) {
     start();
     auto silent = std::make_unique<SenderClient>(tcp());
     silent->receive(banner);

@@ -22,7 +22,7 @@ std::string error_of(const json& answer) {
     return answer.contains("error") ? answer["error"]["message"].get<std::string>() : "";
 }
 
-TEST(StreamConnection, BeginsWithHelloAndGivesPictures) {
+TEST(StreamConnection, StartsWithHelloAndSendsSnapshots) {
     Running running;
     WebClient client = running.client();
     ASSERT_EQ(client.upgrade().status, 101);
@@ -97,7 +97,7 @@ TEST(StreamConnection, StopsUnderItsFormerNameToo) {
     EXPECT_THAT(event["event"]["text"].get<std::string>(), HasSubstr("anna"));
 }
 
-TEST(StreamConnection, TakesLongProgramsFromWhoMayOperate) {
+TEST(StreamConnection, AcceptsLongProgramsFromOperators) {
     Running running;
     WebClient anna = running.master("anna");
     std::string text = "(" + std::string(200'000, 'x') + ")\n" + job();
@@ -111,7 +111,7 @@ TEST(StreamConnection, TakesLongProgramsFromWhoMayOperate) {
     EXPECT_EQ(frame.code, 1009);
 }
 
-TEST(StreamConnection, HasOneMasterAtATime) {
+TEST(StreamConnection, HasOneControlHolderAtATime) {
     Running running;
     WebClient anna = running.master("anna");
     WebClient bert = running.stream(running.token("bert"));
@@ -129,7 +129,7 @@ TEST(StreamConnection, HasOneMasterAtATime) {
     EXPECT_THAT(error_of(anna.exchange({{"command", "enable"}, {"on", true}})), HasSubstr("Control is with bert"));
 }
 
-TEST(StreamConnection, EndsTheJogsThatItAskedForWhenItCloses) {
+TEST(StreamConnection, EndsItsJogsWhenItCloses) {
     Running running({}, {}, whole_seconds(3600));
     WebClient watcher = running.stream("");
     {
@@ -148,7 +148,7 @@ TEST(StreamConnection, EndsTheJogsThatItAskedForWhenItCloses) {
 }
 
 /// Half of the jogs at least stand within 50 ms of the close; their lease would last an hour.
-TEST(StreamConnection, EndsTheJogsThatItAskedForWithin50MsOfItsClose) {
+TEST(StreamConnection, EndsItsJogsWithin50MsOfItsClose) {
     Running running({}, {}, whole_seconds(3600));
     const std::string token = running.token("anna");
     operate::Machine& machine = running.served->machine();
@@ -173,7 +173,7 @@ TEST(StreamConnection, EndsTheJogsThatItAskedForWithin50MsOfItsClose) {
     delays.expect_in_time(0.5, "a jog whose connection closes");
 }
 
-TEST(StreamConnection, RefusesAJogThatComesLateOrRenewsWhatHasEnded) {
+TEST(StreamConnection, RejectsALateJogAndARenewalOfAnEndedOne) {
     Running running;
     WebClient anna = running.master("anna");
     const json jog = {{"command", "jog"}, {"axis", "X"}, {"speed", 1}};

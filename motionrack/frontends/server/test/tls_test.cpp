@@ -121,7 +121,7 @@ TEST_F(TlsServer, IsNotStartedWithAKeyThatOthersMayRead) {
 }
 
 /// A client from another computer: its address is not a loopback address.
-TEST_F(TlsServer, GivesNothingButThePageAndStopToUnauthenticatedClients) {
+TEST_F(TlsServer, AllowsOnlyThePageAndStopWithoutAuthentication) {
     Running running(tls());
     PanelService service({}, running.served->panel(), running.served->door(), running.served->lease(), Page(),
                          std::make_shared<NetworkExecutor>([](const std::function<void()>& work) { work(); }));

@@ -37,7 +37,7 @@ Limits few() {
     return limits;
 }
 
-TEST(ConnectionSlots, EndTheOldestCallerOfTheNetworkThatHasTheMost) {
+TEST(ConnectionSlots, CloseTheOldestConnectionOfTheNetworkWithTheMost) {
     Limits limits = few();
     limits.callers = 16;
     ConnectionSlots open_connections(limits);
@@ -51,7 +51,7 @@ TEST(ConnectionSlots, EndTheOldestCallerOfTheNetworkThatHasTheMost) {
     for (const Someone& one : flood) EXPECT_EQ(one.ended, at++ < 25) << at;
 }
 
-TEST(ConnectionSlots, LeaveThoseAloneThatCameLately) {
+TEST(ConnectionSlots, KeepRecentConnections) {
     Limits limits = few();
     limits.callers = 16;
     ConnectionSlots open_connections(limits);
@@ -66,7 +66,7 @@ TEST(ConnectionSlots, LeaveThoseAloneThatCameLately) {
     }
 }
 
-TEST(ConnectionSlots, EndTheOldestCallerWhereEachNetworkHasOne) {
+TEST(ConnectionSlots, CloseTheOldestConnectionIfEachNetworkHasOne) {
     const Limits limits = few();
     ConnectionSlots open_connections(limits);
     std::list<Someone> all;
@@ -107,7 +107,7 @@ TEST(Networks, AreAnIpv4AddressOr64BitsOfIpv6) {
 
 // ---- the audit
 
-TEST(UnknownSenderLog, WritesSomeLinesAndCountsTheOthers) {
+TEST(UnknownSenderLog, LogsAFewLinesAndCountsTheOthers) {
     std::vector<AuditEntry> lines;
     UnknownSenderLog log([&](const AuditEntry& entry) { lines.push_back(entry); });
     UnknownSenderLog::Time now{};
@@ -122,7 +122,7 @@ TEST(UnknownSenderLog, WritesSomeLinesAndCountsTheOthers) {
     EXPECT_THAT(lines.back().outcome, testing::AllOf(HasSubstr("more within 60 s"), HasSubstr("Not paired.")));
 }
 
-TEST(UnknownSenderLog, IsNotFilledByManyNetworksEither) {
+TEST(UnknownSenderLog, IsNotFloodedByManyNetworks) {
     std::size_t lines = 0;
     UnknownSenderLog log([&](const AuditEntry&) { ++lines; });
     UnknownSenderLog::Time now{};
@@ -164,7 +164,7 @@ TEST(UnknownSender, SendsShortMessagesOnly) {
     }
 }
 
-TEST(Token, IsVoidOnceItsBrowserWasForgotten) {
+TEST(Token, IsInvalidOnceItsBrowserIsRemoved) {
     Running running;
     const std::string bearer = "Authorization: Bearer " + running.token("anna") + "\r\n";
     EXPECT_EQ(running.client().ask("GET", "/api/forget", "", bearer).status, 405);
@@ -189,7 +189,7 @@ TEST(Stop, IsExecutedInAFloodOfConnections) {
         }
 }
 
-TEST(Stop, HasADescriptorWhenAllOthersAreUsedUp) {
+TEST(Stop, HasAReservedDescriptorWhenAllOthersAreInUse) {
     Running running;
     EXPECT_EQ(running.client().ask("GET", "/api/status").status, 200);
     const int client = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
