@@ -58,7 +58,7 @@ TEST(GrblPort, ExecutesALineAndAnswersOnce) {
     EXPECT_NEAR(b.axis(0), 10, 1e-3);
 }
 
-TEST(GrblPort, TakesFifteenMovesAndMakesTheNextLineWait) {
+TEST(GrblPort, BuffersFifteenMovesAndDelaysTheNextLine) {
     Bench b(three_axes());
     b.ask("$10=3\n");
     std::string lines;
@@ -70,7 +70,7 @@ TEST(GrblPort, TakesFifteenMovesAndMakesTheNextLineWait) {
     b.ask("\x18");
 }
 
-TEST(GrblPort, LosesWhatDoesNotFitWhileALineWaits) {
+TEST(GrblPort, DiscardsInputBeyondItsBufferWhileALineWaits) {
     Bench b(three_axes());
     b.ask("$10=3\nG4 P1\n");
     const std::string out = b.ask(std::string(100, '\n') + std::string(100, '\n') + "?", 0.01);
@@ -78,7 +78,7 @@ TEST(GrblPort, LosesWhatDoesNotFitWhileALineWaits) {
     EXPECT_EQ(answers(b.ask("", 2)), 1 + 128);
 }
 
-TEST(GrblPort, AnswersADwellWhenItIsOverAndAllBeforeItIsDone) {
+TEST(GrblPort, AnswersADwellAfterItAndAllMovesBeforeItHaveEnded) {
     Bench b(three_axes());
     EXPECT_EQ(answers(b.ask("G1 X10 F600\nG4 P0.5\n", 1.4)), 1);
     EXPECT_EQ(b.ask("", 0.3), "ok\r\n");
@@ -132,7 +132,7 @@ TEST(GrblPort, WaitsAtM0UntilItIsResumed) {
 
 // ---- jog
 
-TEST(GrblPort, JogsAndKeepsItsModes) {
+TEST(GrblPort, JogsWithoutChangingItsModalState) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("G20 G90\n$J=G91 G21 X10 Y5 F600\n"), "ok\r\nok\r\n");
     EXPECT_THAT(b.report(), StartsWith("<Jog|"));
@@ -161,7 +161,7 @@ TEST(GrblPort, EnablesNoDriveBeforeALineMovesIt) {
     EXPECT_EQ(b.machine->state(), operate::MachineState::jogging);
 }
 
-TEST(GrblPort, ResetsItselfAloneWhereAnotherDrivesTheMachine) {
+TEST(GrblPort, AResetWithoutControlAffectsTheSessionOnly) {
     SessionSettings settings;
     settings.may_stop = []() -> Result<void> { return fail(ErrorKind::refused, "Anna drives."); };
     Bench b(three_axes(), settings);
@@ -255,7 +255,7 @@ TEST(MachineWithHomeSwitches, IsLockedAtFirst) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));
 }
 
-TEST(MachineWithHomeSwitches, IsHomedAndAnswersThen) {
+TEST(MachineWithHomeSwitches, AnswersAfterHoming) {
     Bench b(router());
     b.ask("$N0=G55\n");
     EXPECT_EQ(b.ask("$H\n", 0.5), "");
@@ -276,7 +276,7 @@ TEST(MachineWithHomeSwitches, RaisesAnAlarmWhenHomingIsInterrupted) {
     EXPECT_EQ(b.ask("!", 0.5), "ALARM:6\r\nok\r\n" + banner + unlock);
 }
 
-TEST(MachineWithHomeSwitches, AlarmsWhenItFindsNoSwitch) {
+TEST(MachineWithHomeSwitches, RaisesAnAlarmIfNoSwitchIsFound) {
     Bench b(router());
     ASSERT_TRUE(b.machine->wires().force("X.home", 1));
     ASSERT_TRUE(b.machine->wires().force("X.limit_minus", 1));
@@ -320,7 +320,7 @@ TEST(GrblPort, AlarmsAtTheEmergencyStopAndStaysInItWhileItIsPressed) {
 
 // ---- permissions
 
-TEST(GrblPort, MovesNothingForASenderWithoutControlButStopsForIt) {
+TEST(GrblPort, MovesNothingForASenderWithoutControlButExecutesItsStop) {
     bool mine = false;
     SessionSettings settings;
     settings.take_control = [&]() -> Result<void> {
@@ -346,7 +346,7 @@ TEST(GrblPort, MovesNothingForASenderWithoutControlButStopsForIt) {
     EXPECT_EQ(b.ask("G0 X5\n"), "ok\r\n");
 }
 
-TEST(GrblPort, FollowsWhatOthersDoWithTheMachine) {
+TEST(GrblPort, ReportsMotionCommandedByOtherClients) {
     Bench b(three_axes());
     ASSERT_TRUE(b.machine->enable(true));
     ASSERT_TRUE(b.machine->begin_program("G1 X50 F3000\nG1 X0\nM2\n", "panel.ngc"));

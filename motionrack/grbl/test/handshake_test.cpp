@@ -85,7 +85,7 @@ TEST(LightBurn, EngravesInLaserMode) {
 }
 
 /// bCNC at the end of a job, and when it opens a port: its bytes must not raise an alarm.
-TEST(BCnc, HoldsResetsAndAsksForOffsetsAfterItsJob) {
+TEST(BCnc, HoldsResetsAndQueriesOffsetsAfterItsJob) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("\n\n"), "ok\r\nok\r\n");
     EXPECT_EQ(b.ask("!", 1), "");
@@ -94,7 +94,7 @@ TEST(BCnc, HoldsResetsAndAsksForOffsetsAfterItsJob) {
 }
 
 /// cncjs asks for the modes twice a second also while a program runs, and cancels jogs with two bytes of UTF-8.
-TEST(CncJs, AsksForModesWhileItStreams) {
+TEST(CncJs, QueriesModesWhileStreaming) {
     Bench b(three_axes());
     EXPECT_EQ(b.ask("G1 X10 F600\n$G\nG1 X20\n$G\n", 0.1),
               "ok\r\n[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 F600 S0]\r\nok\r\nok\r\n[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 "

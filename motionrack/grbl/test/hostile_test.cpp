@@ -13,7 +13,7 @@ using testing::EndsWith;
 using testing::StartsWith;
 
 /// MOTIONRACK_SEED=N sets the first seed.
-TEST(GrblPort, LivesThroughAnyBytesAndEndsItsMotion) {
+TEST(GrblPort, SurvivesAnyBytesAndEndsItsMotion) {
     const std::uint64_t first = seed_from_environment();
     const std::vector<std::string> pieces = {"G0", "G1",   "X1",     "Y-3",   "Z5",     "F600", "\n",   "\r\n",
                                              "$$", "$G",   "$H",     "$X",    "$J=",    "G91",  "?",    "!",

@@ -24,7 +24,7 @@ TEST_P(GrblSender, IsIdentifiedByItsFirstBytes) {
     EXPECT_EQ(once.receive(GetParam().bytes), Verdict::sender);
     EXPECT_EQ(once.take_bytes(), GetParam().bytes);
 }
-TEST_P(GrblSender, IsKnownByTheEndOfItsFirstLineWhenItsBytesComeOneByOne) {
+TEST_P(GrblSender, IsIdentifiedByTheEndOfItsFirstLineIfItsBytesArriveOneByOne) {
     Introduction slow;
     Verdict verdict = Verdict::open;
     for (const char c : GetParam().bytes)

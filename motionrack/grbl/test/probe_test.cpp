@@ -22,7 +22,7 @@ TEST(GrblProbe, ReportsTheContactPositionBeforeTheAnswer) {
               "ok\r\n[PRB:" + std::to_string(stopped_at + 2).substr(0, 6) + ",0.000,0.000:0]\r\nok\r\n");
 }
 
-TEST(GrblProbe, LinesBehindItWait) {
+TEST(GrblProbe, LinesAfterItWaitForItsEnd) {
     Bench b(with_probe("x_min_mm = 20\n"));
     const std::string out = b.ask("G38.2 X50 F600\nG91 G1 X-10\nG90\n", 6);
     EXPECT_EQ(out, "[PRB:20.000,0.000,0.000:1]\r\nok\r\nok\r\nok\r\n");

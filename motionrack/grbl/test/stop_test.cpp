@@ -168,7 +168,7 @@ class SenderStop : public testing::TestWithParam<std::tuple<std::size_t, std::si
 };
 
 /// MOTIONRACK_STOPS=N sets the number of tested instants.
-TEST_P(SenderStop, LeavesNoLineOfASenderToBeDriven) {
+TEST_P(SenderStop, DiscardsAllPendingLinesOfTheSender) {
     const auto [which, what] = GetParam();
     const std::uint64_t seed = seed_from_environment();
     std::mt19937 random(static_cast<std::uint32_t>(seed * 1000 + which * 100 + what));
@@ -211,7 +211,7 @@ class SenderAtTheButton : public testing::TestWithParam<std::size_t> {
 };
 
 /// MOTIONRACK_STOPS=N sets the number of tested instants.
-TEST_P(SenderAtTheButton, HasNoLineDrivenBeforeItsOwnReset) {
+TEST_P(SenderAtTheButton, HasNoLineExecutedBeforeItsOwnReset) {
     const std::uint64_t seed = seed_from_environment();
     std::mt19937 random(static_cast<std::uint32_t>(seed * 1000 + 900 + GetParam()));
     for (std::uint64_t i = 0; i < stop_instants(); ++i) {

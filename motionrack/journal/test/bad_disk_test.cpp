@@ -193,7 +193,7 @@ class OnABadDisk : public JournalFile, public testing::WithParamInterface<Scenar
     std::string state_;
 };
 
-TEST_P(OnABadDisk, WhoseNthWriteFailsLosesNothingAcknowledgedAndTrustsNothingWrong) {
+TEST_P(OnABadDisk, WithAFailingWriteLosesNothingAcknowledgedAndValidatesNoWrongValue) {
     const std::int64_t calls = all_calls();
     for (const BadDisk::Fault fault :
          {BadDisk::Fault::fail, BadDisk::Fault::stay, BadDisk::Fault::tear, BadDisk::Fault::drop})
@@ -212,7 +212,7 @@ TEST_P(OnABadDisk, WhoseNthWriteFailsLosesNothingAcknowledgedAndTrustsNothingWro
         }
 }
 
-TEST_P(OnABadDisk, ThatLosesPowerAtAnyWriteLosesNothingAcknowledgedAndTrustsNothingWrong) {
+TEST_P(OnABadDisk, WithAPowerLossAtAnyWriteLosesNothingAcknowledgedAndValidatesNoWrongValue) {
     const auto seed = static_cast<std::uint32_t>(seed_from_environment());
     std::mt19937 random(seed);
     remove();

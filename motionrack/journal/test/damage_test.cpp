@@ -36,7 +36,7 @@ class DamagedJournal : public JournalFile {
     }
 };
 
-TEST_F(DamagedJournal, ThatIsWholeIsTrusted) {
+TEST_F(DamagedJournal, WithoutDamageIsValid) {
     make();
     const LastRun last = next();
     EXPECT_TRUE(last.clean);
@@ -45,7 +45,7 @@ TEST_F(DamagedJournal, ThatIsWholeIsTrusted) {
     EXPECT_EQ(last.kept.at("machine"), "X 12.5");
 }
 
-TEST_F(DamagedJournal, DoesNotTrustAValueWhoseDigitChanged) {
+TEST_F(DamagedJournal, InvalidatesAValueWithAChangedDigit) {
     for (const char* change_it :
          {"UPDATE kept SET value = 'X 62.5'", "UPDATE kept SET run = 2", "UPDATE kept SET utc_ms = utc_ms + 1",
           "UPDATE kept SET key = 'machine ', seal = seal", "UPDATE kept SET seal = ''"}) {
@@ -57,7 +57,7 @@ TEST_F(DamagedJournal, DoesNotTrustAValueWhoseDigitChanged) {
     }
 }
 
-TEST_F(DamagedJournal, DoesNotTakeTheEndOfAnEarlierRunForThatOfAKilledOneWithoutItsLog) {
+TEST_F(DamagedJournal, DoesNotMistakeTheEndOfAnEarlierRunForThatOfAKilledOneWithoutItsLog) {
     make();
     std::string killed;
     {
@@ -70,7 +70,7 @@ TEST_F(DamagedJournal, DoesNotTakeTheEndOfAnEarlierRunForThatOfAKilledOneWithout
     EXPECT_FALSE(next().clean);
 }
 
-TEST_F(DamagedJournal, DoesNotTrustAnEndThatChanged) {
+TEST_F(DamagedJournal, InvalidatesAChangedEndEntry) {
     make();
     change("UPDATE run SET ended_ms = ended_ms + 1");
     EXPECT_THAT(next().doubts, ElementsAre("the end of run 1 does not fit its checksum"));
@@ -81,7 +81,7 @@ TEST_F(DamagedJournal, DoesNotTrustAnEndThatChanged) {
         << "a run that was cut off does not become one that ended by itself";
 }
 
-TEST_F(DamagedJournal, DoesNotTrustAnOlderValueOfTheSameRun) {
+TEST_F(DamagedJournal, InvalidatesAnOlderValueOfTheSameRun) {
     auto journal = open();
     journal->keep("machine", "X 12.5");
     write(*journal, "state", "stands");
@@ -93,13 +93,13 @@ TEST_F(DamagedJournal, DoesNotTrustAnOlderValueOfTheSameRun) {
     EXPECT_THAT(next().doubts, ElementsAre("the end of run 1 does not fit its checksum"));
 }
 
-TEST_F(DamagedJournal, DoesNotTakeWhatAnOlderRunKeptForTheLastOne) {
+TEST_F(DamagedJournal, DoesNotMistakeTheValuesOfAnEarlierRunForThoseOfTheLastOne) {
     make();
     ASSERT_TRUE(open()->close());
     EXPECT_THAT(next().doubts, ElementsAre("the stored value of 'machine' is of run 1, not of the last one, 2"));
 }
 
-TEST_F(DamagedJournal, NoticesEntriesThatWereChangedOrRemoved) {
+TEST_F(DamagedJournal, DetectsChangedAndRemovedEntries) {
     const std::pair<const char*, const char*> changes[] = {
         {"UPDATE entry SET text = 'tow' WHERE number = 2", "entry 2 was changed"},
         {"UPDATE entry SET at = at + 1 WHERE number = 1", "entry 1 was changed"},
@@ -125,7 +125,7 @@ TEST_F(DamagedJournal, NoticesEntriesThatWereChangedOrRemoved) {
     }
 }
 
-TEST_F(DamagedJournal, ChecksTheNewestEntriesAtTheStartAndAllWhenAsked) {
+TEST_F(DamagedJournal, ChecksTheNewestEntriesAtTheStartAndAllOnRequest) {
     {
         const auto journal = open();
         for (std::int64_t i = 0; i < Journal::checked_at_start + 10; ++i) journal->write(Instant{i}, "command", "o");
@@ -185,7 +185,7 @@ TEST_F(DamagedJournal, IsRefusedWhereItsFirstPageIsThatOfANewFile) {
                 testing::AllOf(HasSubstr("bytes and no tables"), HasSubstr("Nothing was started. Keep the file")));
 }
 
-TEST_F(DamagedJournal, IsRefusedWhereNoNumberCouldFollow) {
+TEST_F(DamagedJournal, IsRejectedIfItsNumbersAreOutOfRange) {
     for (const char* sql :
          {"UPDATE entry SET number = 9223372036854775807 WHERE number = 3",
           "UPDATE entry SET number = -5 WHERE number = 1", "UPDATE run SET number = 9223372036854775807",
@@ -200,7 +200,7 @@ TEST_F(DamagedJournal, IsRefusedWhereNoNumberCouldFollow) {
     }
 }
 
-TEST_F(DamagedJournal, IsRefusedWhereWhatItKeepsIsOfNoRun) {
+TEST_F(DamagedJournal, IsRejectedIfItsValuesBelongToNoRun) {
     make();
     change("DELETE FROM run");
     const auto refused = Journal::open(path_);
@@ -210,7 +210,7 @@ TEST_F(DamagedJournal, IsRefusedWhereWhatItKeepsIsOfNoRun) {
 }
 
 /// As left by a killed program: the last writes are in the log beside the file.
-TEST_F(DamagedJournal, IsLeftAsItIsWithItsLogWhereItIsRefused) {
+TEST_F(DamagedJournal, IsNotChangedWithItsLogIfRejected) {
     for (const char* mode : {"PRAGMA journal_mode = WAL", "PRAGMA journal_mode = DELETE"}) {
         make();
         sqlite3* other = nullptr;
@@ -228,7 +228,7 @@ TEST_F(DamagedJournal, IsLeftAsItIsWithItsLogWhereItIsRefused) {
     }
 }
 
-TEST_F(DamagedJournal, OfVersion1IsUpgradedAndNotTrustedOnce) {
+TEST_F(DamagedJournal, OfVersion1IsUpgradedAndInvalidOnce) {
     change(R"(
         CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER);
         CREATE TABLE entry (number INTEGER PRIMARY KEY AUTOINCREMENT, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL,
@@ -256,7 +256,7 @@ TEST_F(DamagedJournal, OfVersion1IsUpgradedAndNotTrustedOnce) {
     EXPECT_THAT(next().damage, HasSubstr("entry 7 was changed"));
 }
 
-TEST(Seal, KeepsFieldsApart) {
+TEST(Seal, DependsOnTheBoundariesOfFields) {
     EXPECT_NE(Seal().add("ab").add("c").text(), Seal().add("a").add("bc").text());
     EXPECT_NE(Seal().add("").add("a").text(), Seal().add("a").add("").text());
     EXPECT_EQ(Seal().add(std::int64_t{12}).text(), Seal().add("12").text());

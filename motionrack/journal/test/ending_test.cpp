@@ -42,7 +42,7 @@ TEST_F(JournalFile, ThatIsClosedRefusesAnEntryAtOnce) {
     EXPECT_TRUE(journal->close()) << "it has ended already";
 }
 
-TEST_F(JournalFile, TakesSoManyEntriesAsMayWaitAndNoMore) {
+TEST_F(JournalFile, AcceptsPendingEntriesUpToItsLimit) {
     const auto journal = open();
     std::promise<void> busy, go_on;
     journal->write(Instant{}, "state", "first", "{}", [&](const Result<std::int64_t>&) {

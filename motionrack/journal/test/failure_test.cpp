@@ -36,7 +36,7 @@ class JournalOnABadDisk : public JournalFile {
     }
 };
 
-TEST_F(JournalOnABadDisk, ThatIsFullReportsItAndHasNoCleanEnd) {
+TEST_F(JournalOnABadDisk, ReportsAFullDiskAndHasNoCleanEnd) {
     auto journal = open();
     journal->keep("machine", "X 7");
     EXPECT_EQ(write(*journal, "state", "fits"), 1);
@@ -57,7 +57,7 @@ TEST_F(JournalOnABadDisk, ThatIsFullReportsItAndHasNoCleanEnd) {
     EXPECT_EQ(all_entries().size(), 2u);
 }
 
-TEST_F(JournalOnABadDisk, NoticesThatAFileOfItWasDeletedReplacedOrCut) {
+TEST_F(JournalOnABadDisk, DetectsThatOneOfItsFilesWasDeletedReplacedOrTruncated) {
     const auto copy_over = [this](const char* end) {
         fs::copy_file(path_ + end, path_ + ".copy");
         fs::rename(path_ + ".copy", path_ + end);
@@ -78,7 +78,7 @@ TEST_F(JournalOnABadDisk, NoticesThatAFileOfItWasDeletedReplacedOrCut) {
     }
 }
 
-TEST_F(JournalOnABadDisk, ThatTakesSecondsForAWriteHoldsUpNoThreadThatWrites) {
+TEST_F(JournalOnABadDisk, WithWritesThatTakeSecondsDelaysNoWritingThread) {
     BadDisk disk;
     auto journal = open();
     disk.hold(true);
@@ -99,7 +99,7 @@ TEST_F(JournalOnABadDisk, ThatTakesSecondsForAWriteHoldsUpNoThreadThatWrites) {
     EXPECT_EQ(next->before()->kept.at("machine"), "999");
 }
 
-TEST_F(JournalOnABadDisk, FailsWhereTooManyEntriesWait) {
+TEST_F(JournalOnABadDisk, FailsIfTooManyEntriesArePending) {
     auto journal = open();
     sqlite3* other = nullptr;
     ASSERT_EQ(sqlite3_open(path_.c_str(), &other), SQLITE_OK);

@@ -37,7 +37,7 @@ TEST_F(JournalFile, KeepsEntriesInOrderAndGivesTheNewest) {
     EXPECT_FALSE(journal->read({0, "", 10001}));
 }
 
-TEST_F(JournalFile, KnowsWhetherTheRunBeforeEndedByItself) {
+TEST_F(JournalFile, ReportsWhetherThePreviousRunEndedCleanly) {
     {
         auto journal = open();
         EXPECT_FALSE(journal->before());
@@ -70,7 +70,7 @@ TEST_F(JournalFile, BelongsToOneProgramAtATime) {
     write(*journal, "state", "still mine");
 }
 
-TEST_F(JournalFile, LeavesFilesThatAreNoJournalAsTheyAre) {
+TEST_F(JournalFile, DoesNotChangeFilesThatAreNotAJournal) {
     std::ofstream(path_)
         << "these are my notes, not a database, and they are long enough to be seen as a damaged one................";
     const auto refused = Journal::open(path_);
@@ -90,7 +90,7 @@ TEST_F(JournalFile, LeavesFilesThatAreNoJournalAsTheyAre) {
     EXPECT_NE(Journal::open("/proc/nowhere/journal.db").error().message.find("cannot be created"), std::string::npos);
 }
 
-TEST_F(JournalFile, IsForItsOwnerOnly) {
+TEST_F(JournalFile, IsReadableByItsOwnerOnly) {
     const auto rights = [this](const char* end) { return fs::status(path_ + end).permissions(); };
     const mode_t before = ::umask(0);
     auto journal = open();
@@ -134,7 +134,7 @@ TEST_F(JournalFile, ReportsADiskThatRefusesIt) {
     EXPECT_FALSE(journal->read({}));
 }
 
-TEST_F(JournalFile, TakesEntriesOfManyThreads) {
+TEST_F(JournalFile, AcceptsEntriesOfManyThreads) {
     auto journal = open();
     std::vector<std::thread> threads;
     for (int t = 0; t < 4; ++t)

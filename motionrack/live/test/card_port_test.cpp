@@ -124,7 +124,7 @@ TEST(LivePort, ReportsThatAWordIsNotAtAnOddAddress) {
     EXPECT_THAT(refusal(path + ",stride=3"), HasSubstr("stride is 3, but registers of 16 bits are an even number"));
 }
 
-TEST(LivePort, APortOfAVanishedFileReadsAsAnEmptySlot) {
+TEST(LivePort, ReadsAsAnEmptySlotAfterItsFileVanished) {
     const Folder folder;
     const std::string path = folder.file("card", std::string(8, '\x12'));
     const auto port = *ByteCardPort::open(*read_port_spec("port:" + path + ",gap_ns=0"), three_card);
@@ -181,7 +181,7 @@ TEST(LivePort, RefusesCardsWhoseRegistersAreNotWords) {
                 HasSubstr("not words of 16 bits"));
 }
 
-TEST(LivePort, KeepsItsCardFromASecondPortUntilItEnds) {
+TEST(LivePort, LocksItsCardAgainstASecondPortUntilItCloses) {
     const Folder folder;
     const std::string path = folder.file("card", std::string(64, '\0'));
     for (const char* kind : {"memory:", "port:"}) {
@@ -199,7 +199,7 @@ TEST(LivePort, KeepsItsCardFromASecondPortUntilItEnds) {
     }
 }
 
-TEST(LivePort, KeepsItsCardFromOtherPrograms) {
+TEST(LivePort, LocksItsCardAgainstOtherPrograms) {
     const Folder folder;
     const std::string path = folder.file("card", std::string(8, '\0'));
     const auto port = open("memory:" + path);
@@ -251,7 +251,7 @@ TEST(LivePort, ACardOfWhichEveryRegisterReadsAllOnesDoesNotAnswer) {
         }
 }
 
-TEST(LivePort, AskedWhetherItsCardAnswersReadsNoRegisterThatReadingChanges) {
+TEST(LivePort, TheCheckOfItsCardReadsNoRegisterWithASideEffect) {
     static constexpr RegisterInfo clearing[] = {
         {"A", 0, 16, Access::write, false, "", "", {}},
         {"B", 2, 16, Access::read_clears, false, "", "", {}},
@@ -288,7 +288,7 @@ TEST(LivePort, FindsAUioMapByItsFolderInSys) {
     EXPECT_THAT(no_number.error().message, HasSubstr("size has no number"));
 }
 
-TEST(LivePort, ItsClockNeverWaitsTooShort) {
+TEST(LivePort, ItsClockNeverWaitsLessThanRequested) {
     MonotonicClock clock;
     for (const Duration wanted : {nanoseconds(1), microseconds(20), microseconds(200)}) {
         const Instant before = clock.now();
@@ -337,7 +337,7 @@ TEST(LivePort, LeavesTheCardItsGapBetweenTwoAccesses) {
     EXPECT_EQ(clock.now(), nanoseconds(1500));
 }
 
-TEST(LivePort, WithoutAnInterruptAWaitLetsItsTimePass) {
+TEST(LivePort, AWaitWithoutAnInterruptLastsItsTimeout) {
     const Folder folder;
     const auto port = CardPort::open(*read_port_spec("memory:" + folder.file("card", std::string(8, '\0'))), four,
                                      std::make_unique<Counted>());

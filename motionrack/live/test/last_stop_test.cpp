@@ -18,7 +18,7 @@ class EndingLibrary final : public FunctionLibrary {
     void stop_now() override { std::terminate(); }
 };
 
-TEST(LastStop, EndsTheProgramOnceMoreWhereAStopItselfEndsIt) {
+TEST(LastStop, EndsTheProgramIfAStopItselfAborts) {
     const auto end = [] {
         EndingLibrary library;
         const LastStop listed(library);
@@ -28,7 +28,7 @@ TEST(LastStop, EndsTheProgramOnceMoreWhereAStopItselfEndsIt) {
     EXPECT_EXIT(end(), testing::ExitedWithCode(5), "");
 }
 
-TEST(LastStop, SaysThatTheProgramEnds) {
+TEST(LastStop, ReportsThatTheProgramEnds) {
     EXPECT_FALSE(is_program_ending());
     const auto end = [] {
         stop_live_cards_at_terminate([] { std::_Exit(is_program_ending() ? 5 : 1); });

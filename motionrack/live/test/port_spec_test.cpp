@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(LivePortSpec, TakesTheThreeWaysToReachACard) {
+TEST(LivePortSpec, AcceptsMappedMemoryIoPortsAndUio) {
     const auto uio = read_port_spec("uio:/dev/uio3,map=1,offset=0x100");
     ASSERT_TRUE(uio) << uio.error().message;
     EXPECT_EQ(uio->reach, AddressSpace::uio);

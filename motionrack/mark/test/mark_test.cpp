@@ -38,7 +38,7 @@ TEST(MarkJob, TheReferenceSquareIsRightWithCorrectionAndShearedWithout) {
     EXPECT_NEAR(out.on.energy_j, 20 * 0.08, 0.01);
 }
 
-TEST(MarkJob, RecordsTheUsedFieldAndTheCourseOfTheSpot) {
+TEST(MarkJob, RecordsTheUsedFieldAndThePathOfTheSpot) {
     const MarkingOutcome out = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n"));
     EXPECT_NEAR(out.field.high.x, 60.57, 0.01);
     // The corners are marked after 20, 40, 60 and 80 ms: the second at 10 + 4, the last at 8 mm.
@@ -55,7 +55,7 @@ TEST(MarkJob, RecordsTheUsedFieldAndTheCourseOfTheSpot) {
     EXPECT_NEAR(open_s, out.on.duty * out.on.seconds, 1e-5);
 }
 
-TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
+TEST(MarkJob, EveryTrackingMethodGivesTheSquare) {
     for (const char* mode : {"encoder", "simulated", "mcbsp"})
         for (const char* direction : {"0", "90", "180", "270", "30"}) {
             MarkingJob job =
@@ -73,7 +73,7 @@ TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
     }
 }
 
-TEST(MarkJob, TheVelocityAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
+TEST(MarkJob, TheMaximumBeltVelocityFitsAndASlightlyHigherOneDoesNot) {
     MarkingJob job = job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n");
     const MarkingOutcome out = run(job);
     ASSERT_TRUE(out.fits_factor);
@@ -90,7 +90,7 @@ TEST(MarkJob, TheVelocityAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
     EXPECT_THAT(outcome_text(job, over), HasSubstr("FLY_X_OVERFLOW at 0.0"));
 }
 
-TEST(MarkJob, AWrongScaleAndALateSourceShowAsTheirFormulasSay) {
+TEST(MarkJob, AWrongScaleAndALateSourceDeviateAsTheirFormulasState) {
     const MarkingOutcome wrong = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\nscale_factor = 1.01\n"));
     EXPECT_NEAR(wrong.on.deviation.max_mm, 0.01 * 100 * wrong.on.seconds, 0.01);
     const MarkingOutcome late = run(job_of(mark_belt_job + "[sender]\ndelay_us = 2000\n[fly]\nmode = 'mcbsp'\n"));
@@ -166,7 +166,7 @@ TEST(MarkJob, ChecksACorrectionFileAndReportsItsUnknownParts) {
     EXPECT_THAT(why_not(file(5184, 403, {})), HasSubstr("its table cannot be inverted"));
 }
 
-TEST(MarkJob, StopsWhenAsked) {
+TEST(MarkJob, StopsOnRequest) {
     const MarkingJob job = job_of("[drawing]\ntext = 'AAAAAAAAAAAA'\n[pace]\nmark_speed_mm_s = 10\n");
     const Result<MarkingOutcome> out = run_job(job, *prepare(job, one_file("")), {{}, [] { return true; }});
     ASSERT_FALSE(out);

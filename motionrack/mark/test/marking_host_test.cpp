@@ -19,7 +19,7 @@ std::string squares(const std::string& parts, const std::string& fly = "mode = '
            fly + "\n[parts]\n" + parts;
 }
 
-TEST(MarkLine, EachPartIsMarkedATrackDelayBehindItsEdge) {
+TEST(MarkingHostTest, EachPartIsMarkedATrackDelayBehindItsEdge) {
     const MarkingOutcome out = run(job_of(squares("count = 5\nspacing_mm = 60\ntrack_delay_mm = 33.3\n")));
     ASSERT_EQ(out.on.parts.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) {
@@ -36,7 +36,7 @@ TEST(MarkLine, EachPartIsMarkedATrackDelayBehindItsEdge) {
     for (const PartMarked& part : out.off->parts) EXPECT_NEAR(part.deviation.max_mm, 16, 0.1);
 }
 
-TEST(MarkLine, EveryWayToFollowPartsIsRight) {
+TEST(MarkingHostTest, EveryTrackingMethodMarksPartsWithinTheTolerance) {
     for (const char* mode : {"encoder", "simulated"})
         for (const char* direction : {"0", "90", "180", "30"})
             for (const char* counts : {"1000", "-1000"})
@@ -51,7 +51,7 @@ TEST(MarkLine, EveryWayToFollowPartsIsRight) {
                 }
 }
 
-TEST(MarkLine, PartsAroundATableAreMarkedInMotion) {
+TEST(MarkingHostTest, PartsAroundATableAreMarkedInMotion) {
     for (const char* start : {"track_delay_deg = 15", "start = 'equidistant'"}) {
         const MarkingOutcome out =
             run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nvelocity_deg_s = 60\ncentre_y_mm = "
@@ -67,7 +67,7 @@ TEST(MarkLine, PartsAroundATableAreMarkedInMotion) {
     }
 }
 
-TEST(MarkLine, AStartWhileAListRunsIsLostWithItsInstant) {
+TEST(MarkingHostTest, AStartWhileAListRunsIsLostWithItsInstant) {
     // 10 mm take 50 ms: every second part arrives while the previous square is being marked.
     const MarkingJob job = job_of(squares("count = 6\nspacing_mm = 10\ntrack_delay_mm = 20\n"));
     const MarkingOutcome out = run(job);
@@ -87,7 +87,7 @@ TEST(MarkLine, AStartWhileAListRunsIsLostWithItsInstant) {
         << "the way back to the middle is shorter on a slower belt";
 }
 
-TEST(MarkLine, OfMoreThanEightThatWaitTheLatestIsLost) {
+TEST(MarkingHostTest, OfMoreThanEightPendingStartsTheLatestIsLost) {
     const MarkingOutcome out = run(job_of(squares("count = 10\nspacing_mm = 20\ntrack_delay_mm = 170\n")));
     // At 160 mm the ninth edge arrives; the first part is due at 170 mm.
     for (std::size_t i = 0; i < 10; ++i)
@@ -95,7 +95,7 @@ TEST(MarkLine, OfMoreThanEightThatWaitTheLatestIsLost) {
     EXPECT_NEAR(out.on.parts[8].begin_s, 160.0 / 200, 2e-5);
 }
 
-TEST(MarkLine, TheCardStartsItselfAtEvenDistances) {
+TEST(MarkingHostTest, TheCardStartsItselfAtEvenDistances) {
     // 0.0123 mm are 12.3 counts: the card counts 60012 from start to start, without cumulative loss.
     const MarkingOutcome out = run(job_of(squares("count = 6\nspacing_mm = 60.0123\nstart = 'equidistant'\n")));
     for (std::size_t i = 0; i < 6; ++i) {
@@ -109,7 +109,7 @@ TEST(MarkLine, TheCardStartsItselfAtEvenDistances) {
     EXPECT_EQ(lost.on.parts[2].fate, PartOutcome::not_started);
 }
 
-TEST(MarkLine, EachPartGetsItsNumber) {
+TEST(MarkingHostTest, EachPartHasItsSerialNumber) {
     const MarkingJob job = job_of(
         "[drawing]\ntext = 'N{n:03}'\nheight_mm = 3\n[belt]\nvelocity_mm_s = 150\n[fly]\nmode = 'encoder'\n"
         "[parts]\npart_positions_mm = [0, 40, 75, 130, 190]\ntrack_delay_mm = 50\nfirst_number = 98\nnumber_step = "
@@ -130,7 +130,7 @@ TEST(MarkLine, EachPartGetsItsNumber) {
     EXPECT_LE(parts::compare(points, prepared.of(2).segments).max_mm, 0.004);
 }
 
-TEST(MarkLine, NumbersContinueWithTheNextPartThatIsMarked) {
+TEST(MarkingHostTest, NumbersContinueWithTheNextPartThatIsMarked) {
     const MarkingOutcome out =
         run(job_of("[drawing]\ntext = '{n}'\nheight_mm = 6\n[pace]\nmark_speed_mm_s = 200\n[belt]\nvelocity_mm_s = "
                    "200\n[fly]\nmode = 'encoder'\n"
@@ -149,7 +149,7 @@ TEST(MarkLine, NumbersContinueWithTheNextPartThatIsMarked) {
     }
 }
 
-TEST(MarkLine, OverflowsAreOnTheirPartInItsCoordinates) {
+TEST(MarkingHostTest, OverflowsAreOnTheirPartInItsCoordinates) {
     const MarkingOutcome out = run(job_of(squares("count = 3\nspacing_mm = 200\ntrack_delay_mm = 20\n",
                                                   "mode = 'encoder'\n[optics]\nbits_per_mm = 40000")));
     ASSERT_FALSE(out.on.overflows.empty());
@@ -165,7 +165,7 @@ TEST(MarkLine, OverflowsAreOnTheirPartInItsCoordinates) {
     EXPECT_EQ(seen.back(), 2u);
 }
 
-TEST(MarkLine, AWayThatAPartNeverGoesIsRefused) {
+TEST(MarkingHostTest, ADistanceThatNoPartTravelsIsRejected) {
     const MarkingJob job = job_of(
         "[drawing]\nsvg = 's'\n[belt]\nprofile = [[0, 100], [1, 0]]\n[fly]\nmode = 'encoder'\n[parts]\ncount = "
         "4\nspacing_mm = 20\n");
@@ -174,7 +174,7 @@ TEST(MarkLine, AWayThatAPartNeverGoesIsRefused) {
         HasSubstr("Part 4 does not reach the sensor within 1000 s: the belt moves 50 until then, the part is 60 away"));
 }
 
-TEST(MarkLine, WrongPartsAreReportedAllAtOnceWithTheirLocations) {
+TEST(MarkingHostTest, InvalidPartsAreReportedTogetherWithTheirLocations) {
     const std::string all = errors_of(
         "[drawing]\ntext = 'N{m}'\n[belt]\nvelocity_mm_s = 100\n[fly]\nmode = 'mcbsp'\ntracking_error_us = "
         "50\n[parts]\ncount = 3\nstart = 'equidistant'\ntrack_delay_mm = 5\n");
@@ -198,7 +198,7 @@ TEST(MarkLine, WrongPartsAreReportedAllAtOnceWithTheirLocations) {
     EXPECT_THAT(errors_of("drawing = [1]\n"), HasSubstr("j.toml:1:"));
 }
 
-TEST(MarkLine, SeveralDrawingsAreMarkedOnOnePart) {
+TEST(MarkingHostTest, SeveralDrawingsAreMarkedOnOnePart) {
     const MarkingOutcome out =
         run(job_of("[[drawing]]\nsvg = 's'\n[[drawing]]\ntext = 'A{n}'\nheight_mm = 3\ny_mm = 12\n"));
     EXPECT_EQ(out.on.deviation.missing_mm, 0);
@@ -206,7 +206,7 @@ TEST(MarkLine, SeveralDrawingsAreMarkedOnOnePart) {
     EXPECT_THAT(errors_of("[[drawing]]\nsvg = 's'\n[[drawing]]\n"), HasSubstr("j.toml:3:"));
 }
 
-TEST(Numbered, FillsWithZerosAndRefusesOtherBraces) {
+TEST(Numbered, PadsWithZerosAndRejectsOtherBraces) {
     EXPECT_EQ(*numbered("SN {n:04}/{n}", 42), "SN 0042/42");
     EXPECT_EQ(*numbered("none", 42), "none");
     EXPECT_EQ(*numbered("{n:03}", -4), "-04");

@@ -41,7 +41,7 @@ Engine card_with_a_list() {
     return card;
 }
 
-TEST(OverflowLog, HasTheTicksInWhichTheFlagsAreSetAnew) {
+TEST(OverflowLog, HasTheTicksAtWhichTheFlagsBecomeSet) {
     parts::ConveyorSettings settings;
     settings.profile = {{0, 0.6 * 1e6 / counts_per_bit}};
     const parts::Conveyor track = *parts::Conveyor::make(settings);

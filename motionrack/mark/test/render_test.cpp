@@ -68,14 +68,14 @@ TEST(MarkPicture, ShowsTheDrawingBothPartsTheFieldAndTheMaximumDeviation) {
     EXPECT_THAT(pictures_of(s.prepared, s.out)[0].svg, HasSubstr("<path class=\"drawn\" d=\"M"));
 }
 
-TEST(MarkPicture, WithoutCorrectionItHasOnlyThatPart) {
+TEST(MarkPicture, WithoutCorrectionShowsTheUncorrectedPartOnly) {
     const Shown s = shown("[drawing]\nsvg = 's'\n");
     EXPECT_THAT(titles(s), ElementsAre("As drawn", "Without correction", "In the field"))
         << "all marks are on the drawing";
     expect_drawable(picture_svg(s.prepared, s.out));
 }
 
-TEST(MarkPicture, OfAVeryWideAVeryHighAndAFlatDrawingIsDrawable) {
+TEST(MarkPicture, IsValidForVeryWideVeryHighAndFlatDrawings) {
     for (const char* path : {"M0 0H60V1", "M0 0V60H1", "M0 0H10", "M0 0V10", "M0 0h0.0001"}) {
         const Shown s =
             shown(belt_job + "[fly]\nmode = 'encoder'\n", std::string("<svg><path d='") + path + "'/></svg>");
@@ -99,7 +99,7 @@ TEST(Plot, PutsTheMiddleOfTheBoxInItsMiddleAtOneScale) {
     EXPECT_DOUBLE_EQ(plot.y(0) - plot.y(1), 16) << "Y is up";
 }
 
-TEST(Plot, ThinsInvisibleDetailsAndClipsAtTheEdge) {
+TEST(Plot, DecimatesInvisibleDetailsAndClipsAtTheEdge) {
     const Plot plot({{0, 0}, {10, 10}}, 200, 200, 0);
     std::vector<StrokePoint> line = {{{-1e6, 5}, true}};
     for (int i = 0; i <= 1000; ++i) line.push_back({{i * 0.01, 5 + 1e-4 * (i % 2)}, false});
@@ -109,7 +109,7 @@ TEST(Plot, ThinsInvisibleDetailsAndClipsAtTheEdge) {
     EXPECT_EQ(plot.strokes(apart, "x"), "<path class=\"x\" d=\"M20 180L40 180M60 180L80 180\"/>\n");
 }
 
-TEST(MarkWarning, ComesBeforeTheFieldOverflowsAndReportsHowMuchIsLeft) {
+TEST(MarkWarning, IsRaisedBeforeTheFieldOverflowsAndReportsTheMargin) {
     EXPECT_TRUE(warnings_of(shown(belt_job + "[fly]\nmode = 'encoder'\n").out).empty());
     const Shown near =
         shown("[drawing]\nsvg = 's'\nanchor = 'origin'\n[belt]\nvelocity_mm_s = 720\n[fly]\nmode = 'encoder'\n");

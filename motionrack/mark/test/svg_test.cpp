@@ -26,7 +26,7 @@ Drawing path(const std::string& d) {
     return read("<svg><path d=\"" + d + "\"/></svg>");
 }
 
-TEST(SvgReader, LinesAbsoluteAndRelativeEndWhereTheyShould) {
+TEST(SvgReader, AbsoluteAndRelativeLinesEndAtTheirPoints) {
     const Drawing d = path("m1 2 3 4L10-5h-2v1.5e1zl.5.5-1,-1M0 0");
     ASSERT_EQ(d.strokes.size(), 2u);
     ASSERT_EQ(d.strokes[0].elements.size(), 5u);
@@ -85,7 +85,7 @@ TEST(SvgReader, SizesAndTransformsGiveMillimetres) {
                     .strokes.empty());
 }
 
-TEST(SvgReader, WhatItCannotDrawIsRefusedWithItsLocation) {
+TEST(SvgReader, UnsupportedElementsAreRejectedWithTheirLocation) {
     EXPECT_THAT(refusal("<svg>\n <g>\n  <text>A</text></g></svg>"), HasSubstr("d.svg:3:4: the element 'text'"));
     EXPECT_THAT(refusal("<svg>\n<path id='d' d='M0 0\nL1 x'/></svg>"), HasSubstr("d.svg:3:4: d of path"));
     EXPECT_THAT(refusal("<svg><path d='L1 1'/></svg>"), HasSubstr("d.svg:1:15:"));
@@ -103,7 +103,7 @@ TEST(SvgReader, WhatItCannotDrawIsRefusedWithItsLocation) {
     EXPECT_THAT(refusal(""), HasSubstr("not XML"));
 }
 
-TEST(SvgReader, AStyleCountsAsMuchAsAnAttribute) {
+TEST(SvgReader, RejectsUnsupportedStylePropertiesAsTheirAttributes) {
     EXPECT_THAT(refusal("<svg><path\nstyle='fill:none; stroke-dasharray: 1,2 !important' d='M0 0L1 1'/></svg>"),
                 HasSubstr("d.svg:2:8: stroke-dasharray in a style of path"));
     EXPECT_THAT(refusal("<svg><g style='clip-path:url(#c)'><path d='M0 0L1 1'/></g></svg>"),
@@ -133,7 +133,7 @@ TEST(SvgReader, DrawsVisibleElementsOnly) {
     EXPECT_TRUE(read("<svg display='none'><path d='M0 0L1 1'/></svg>").strokes.empty());
 }
 
-TEST(SvgReader, ReadsSvgUnderAnyPrefixAndPassesOtherLanguagesOver) {
+TEST(SvgReader, ReadsSvgUnderAnyPrefixAndSkipsOtherNamespaces) {
     EXPECT_EQ(read("<s:svg xmlns:s='http://www.w3.org/2000/svg' xmlns:i='http://inkscape'><i:view/><s:path d='M0 0L1 "
                    "1'/></s:svg>")
                   .strokes.size(),
@@ -144,7 +144,7 @@ TEST(SvgReader, ReadsSvgUnderAnyPrefixAndPassesOtherLanguagesOver) {
               1u);
 }
 
-TEST(SvgReader, DamagedFilesAreReadOrRefusedAndNothingElse) {
+TEST(SvgReader, DamagedFilesAreReadOrRejected) {
     const std::string good =
         "<svg width='10mm' viewBox='0 0 10 10'><g transform='matrix(1 0 0 1 2 3)'><path d='M0 0C1 2 3 4 5 6S1 1 2 2Q3 "
         "3 4 4T1 1A5 4 10 1 0 9 9z'/><circle r='3'/></g></svg>";

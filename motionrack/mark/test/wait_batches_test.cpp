@@ -22,7 +22,7 @@ std::string long_job(const std::string& belt, const std::string& fly) {
            belt + "\n[fly]\nwait_mode = 'auto'\n" + fly + "\n";
 }
 
-TEST(Waits, EveryPieceIsInTheFieldFromItsWayOn) {
+TEST(WaitBatches, EverySegmentIsInTheFieldOnceItsWaitHasEnded) {
     const Drawing drawing = *read_svg(long_svg, "s");
     const Box field{{-59, -59}, {59, 59}};
     for (const Spot movement : {Spot{1, 0}, Spot{0.8, 0.6}}) {
@@ -45,7 +45,7 @@ TEST(Waits, EveryPieceIsInTheFieldFromItsWayOn) {
     }
 }
 
-TEST(Waits, StrokesShorterThanAQuarterOfTheFieldAreNotDivided) {
+TEST(WaitBatches, StrokesShorterThanAQuarterOfTheFieldAreNotDivided) {
     const Drawing circle = *read_svg("<svg><circle cx='-100' cy='0' r='14'/></svg>", "s");
     const std::vector<WaitBatch> batches = *batches_of(circle, {{-59, -59}, {59, 59}}, {1, 0});
     ASSERT_EQ(batches.size(), 1u);
@@ -53,7 +53,7 @@ TEST(Waits, StrokesShorterThanAQuarterOfTheFieldAreNotDivided) {
     EXPECT_NEAR(batches[0].at_mm, 114 - 59, 1e-6);
 }
 
-TEST(Waits, ADrawingLongerThanTheFieldIsMarkedInMotion) {
+TEST(WaitBatches, ADrawingLongerThanTheFieldIsMarkedInMotion) {
     for (const char* fly : {"mode = 'encoder'", "mode = 'simulated'", "mode = 'mcbsp'"})
         for (const char* belt : {"velocity_mm_s = 150", "velocity_mm_s = -150\ndirection_deg = 180"}) {
             const MarkingOutcome out = run(job_of(long_job(belt, fly)), long_svg);
@@ -73,14 +73,14 @@ TEST(Waits, ADrawingLongerThanTheFieldIsMarkedInMotion) {
     EXPECT_GT(none.on.deviation.missing_mm, 300);
 }
 
-TEST(Waits, AFrameIsReadyWhenItsLastEdgeHasComeIn) {
+TEST(WaitBatches, AFrameIsReadyWhenItsLastEdgeHasEnteredTheField) {
     // The trailing edge is at -380 mm: 380 - 59.57 mm of way at 150 mm/s.
     const MarkingOutcome out = run(job_of(long_job("velocity_mm_s = 150", "mode = 'encoder'")), long_svg);
     EXPECT_GT(out.on.seconds, (380 - 59.57) / 150);
     EXPECT_LT(out.on.seconds, (380 - 59.57) / 150 + 0.1);
 }
 
-TEST(Waits, ABeltThatIsTooFastIsRefusedWithTheVelocityThatFits) {
+TEST(WaitBatches, ABeltThatIsTooFastIsRefusedWithTheVelocityThatFits) {
     const std::string why = refusal(job_of(long_job("velocity_mm_s = 2500", "mode = 'encoder'")), long_svg);
     EXPECT_THAT(why, HasSubstr("The belt is too fast: at 2500 mm/s marks leave the field by up to"));
     const std::size_t at = why.find("The limit is ");
@@ -97,7 +97,7 @@ TEST(Waits, ABeltThatIsTooFastIsRefusedWithTheVelocityThatFits) {
     EXPECT_NEAR(*slow.fits_factor * job.belt.velocity, fits, 0.02 * fits);
 }
 
-TEST(Waits, WhatNeverComesOrHasPassedIsRefusedWithMillimetres) {
+TEST(WaitBatches, StrokesThatNeverEnterOrHaveLeftTheFieldAreRejectedWithMillimetres) {
     const std::string belt = "velocity_mm_s = 100", fly = "mode = 'encoder'";
     EXPECT_THAT(refusal(job_of(long_job(belt, fly)), "<svg><path d='M0 70 H10'/></svg>"),
                 HasSubstr("is never inside the field"));
@@ -105,16 +105,16 @@ TEST(Waits, WhatNeverComesOrHasPassedIsRefusedWithMillimetres) {
                 HasSubstr("has left the field by 10.431 mm before"));
     EXPECT_THAT(refusal(job_of(long_job(belt, fly + "\nmargin_mm = 61")), long_svg),
                 HasSubstr("exceeds a field of 121."));
-    EXPECT_THAT(errors_of(long_job(belt, "")), HasSubstr("Waits need a correction"));
+    EXPECT_THAT(errors_of(long_job(belt, "")), HasSubstr("WaitBatches need a correction"));
     EXPECT_THAT(errors_of(long_job("profile = [[0, 10], [1, -10]]", fly)), HasSubstr("never reverses"));
     EXPECT_THAT(errors_of(long_job(belt + "\ndirection_deg = 30", "mode = 'mcbsp'")),
                 HasSubstr("two values of 16 bits"));
     EXPECT_THAT(
         errors_of("[drawing]\nsvg = 's'\n[table]\nvelocity_deg_s = 10\n[fly]\nmode = 'encoder'\nwait_mode = 'auto'\n"),
-        HasSubstr("j.toml:7:13: Waits need a belt"));
+        HasSubstr("j.toml:7:13: WaitBatches need a belt"));
 }
 
-TEST(Waits, GoTogetherWithPartsAndProfiles) {
+TEST(WaitBatches, WorkWithPartsAndVelocityProfiles) {
     const MarkingOutcome parts =
         run(job_of(long_job("velocity_mm_s = 150",
                             "mode = 'encoder'\n[parts]\ncount = 2\nspacing_mm = 420\ntrack_delay_mm = 30")),
@@ -142,7 +142,7 @@ TEST(MarkSources, ASimulatedEncoderIsRightOnlyWhileTheBeltHasItsVelocity) {
     EXPECT_THAT(errors_of(job + "mode = 'encoder'\nsimulated_velocity_mm_s = 100\n"), HasSubstr("j.toml:8:27"));
 }
 
-TEST(MarkSources, ALateMcBspSourceIsMadeUpForAtConstantVelocity) {
+TEST(MarkSources, ALateMcBspSourceIsCompensatedAtConstantVelocity) {
     const auto job = [](const std::string& belt, const std::string& offset) {
         return "[drawing]\nsvg = 's'\nanchor = 'origin'\n" + belt +
                "\n[sender]\nbits_per_unit = 10000\ndelay_us = 1500\n[fly]\nmode = 'mcbsp'\n" + offset + "\n";
