@@ -105,13 +105,13 @@ TEST(WaitBatches, StrokesThatNeverEnterOrHaveLeftTheFieldAreRejectedWithMillimet
                 HasSubstr("has left the field by 10.431 mm before"));
     EXPECT_THAT(refusal(job_of(long_job(belt, fly + "\nmargin_mm = 61")), long_svg),
                 HasSubstr("exceeds a field of 121."));
-    EXPECT_THAT(errors_of(long_job(belt, "")), HasSubstr("WaitBatches need a correction"));
+    EXPECT_THAT(errors_of(long_job(belt, "")), HasSubstr("Waits need a correction"));
     EXPECT_THAT(errors_of(long_job("profile = [[0, 10], [1, -10]]", fly)), HasSubstr("never reverses"));
     EXPECT_THAT(errors_of(long_job(belt + "\ndirection_deg = 30", "mode = 'mcbsp'")),
                 HasSubstr("two values of 16 bits"));
     EXPECT_THAT(
         errors_of("[drawing]\nsvg = 's'\n[table]\nvelocity_deg_s = 10\n[fly]\nmode = 'encoder'\nwait_mode = 'auto'\n"),
-        HasSubstr("j.toml:7:13: WaitBatches need a belt"));
+        HasSubstr("j.toml:7:13: Waits need a belt"));
 }
 
 TEST(WaitBatches, WorkWithPartsAndVelocityProfiles) {

@@ -31,7 +31,7 @@ int let_on(ClockPacer& pacer, Instant now) {
     return asked;
 }
 
-TEST(ClockPacer, KeepsStepWithTheComputerAndDoesNotDrift) {
+TEST(ClockPacer, FollowsTheComputersClockWithoutDrift) {
     SleepingClock clock;
     clock.too_long = microseconds(70);
     ClockPacer pacer(clock, ClockMode::real, 1);
@@ -42,7 +42,7 @@ TEST(ClockPacer, KeepsStepWithTheComputerAndDoesNotDrift) {
     EXPECT_EQ(pacer.lateness().count(), 5001);
 }
 
-TEST(ClockPacer, HasTimeGoFasterAndSlower) {
+TEST(ClockPacer, ScalesTime) {
     for (const double factor : {0.001, 0.1, 3.0, 1000.0}) {
         SleepingClock clock;
         ClockPacer pacer(clock, ClockMode::real, factor);
@@ -59,7 +59,7 @@ TEST(ClockPacer, WaitsInPartsSoThatEveryCommandIsProcessed) {
     EXPECT_EQ(let_on(pacer, milliseconds(2)), 40);  // 200 ms, 5 ms at a time
 }
 
-TEST(ClockPacer, CatchesUpASmallDelayAndGivesUpALargeOne) {
+TEST(ClockPacer, CatchesUpASmallDelayAndSkipsALargeOne) {
     SleepingClock clock;
     ClockPacer pacer(clock, ClockMode::real, 1);
     let_on(pacer, Instant{0});
@@ -75,7 +75,7 @@ TEST(ClockPacer, CatchesUpASmallDelayAndGivesUpALargeOne) {
     EXPECT_EQ(clock.slept, milliseconds(2));
 }
 
-TEST(ClockPacer, PausesAndStepsAndContinuesWithoutAJump) {
+TEST(ClockPacer, PausesAdvancesAndContinuesWithoutAJump) {
     SleepingClock clock;
     ClockPacer pacer(clock, ClockMode::paused, 1);
     EXPECT_FALSE(pacer.pace(Instant{0}));
@@ -92,7 +92,7 @@ TEST(ClockPacer, PausesAndStepsAndContinuesWithoutAJump) {
     EXPECT_EQ(pacer.lost(), Duration{0});
 }
 
-TEST(ClockPacer, NeverWaitsWhenItIsFree) {
+TEST(ClockPacer, NeverWaitsWhenUnthrottled) {
     SleepingClock clock;
     ClockPacer pacer(clock, ClockMode::unthrottled, 1);
     for (int i = 0; i < 1000; ++i) EXPECT_TRUE(pacer.pace(whole_seconds(i)));

@@ -45,7 +45,7 @@ TEST_P(SwappedLimits, StopAnAxisBehindWhichOneBecomesActive) {
     o.run(4);
 }
 
-TEST_P(SwappedLimits, StopASearchForHomeToo) {
+TEST_P(SwappedLimits, StopAHomingToo) {
     if (!GetParam()) GTEST_SKIP();
     Operated o(
         two_axes("[axis.X.switches]\nlimit_minus_mm = 2\nlimit_plus_mm = 40\nhome_mm = "
@@ -122,7 +122,7 @@ void open_door(Machine& m, bool open) {
     EXPECT_TRUE(m.wires().force("door", open ? 0 : 1));
 }
 
-TEST(Door, OpenedInAProgramHoldsTheFeedAndPutsTheSpindleOff) {
+TEST(Door, OpenedDuringAProgramHoldsTheFeedAndStopsTheSpindle) {
     Operated o(two_axes(with_door));
     o.at(0.02, set_all_positions);
     double held = 0;
@@ -149,7 +149,7 @@ TEST(Door, OpenedInAProgramHoldsTheFeedAndPutsTheSpindleOff) {
     EXPECT_THAT(o.machine->status().alarms, testing::SizeIs(1));
 }
 
-TEST(Door, OpenedInAJogStopsItAndNothingBeginsUntilItIsClosed) {
+TEST(Door, OpenedDuringAJogStopsItAndPreventsStartsUntilItIsClosed) {
     Operated o(two_axes(with_door + "[axis.X.switches]\nhome_mm = 0\n"));
     o.at(0.02, set_all_positions);
     double stood = 0;

@@ -23,7 +23,7 @@ struct AtRate {
 
 class JogLeaseAtARate : public testing::TestWithParam<double> {};
 
-TEST_P(JogLeaseAtARate, EndsAQuarterOfASecondOfTheWallAfterItsLastRenewal) {
+TEST_P(JogLeaseAtARate, EndsAQuarterOfASecondOfRealTimeAfterItsLastRenewal) {
     const double rate = GetParam(), speed = 2;  // mm/s: stops immediately
     AtRate one(rate);
     for (int n = 0; n < 10; ++n) one.o.at((0.1 + 0.1 * n) * rate, [&](Machine& m) { EXPECT_TRUE(m.jog('X', speed)); });

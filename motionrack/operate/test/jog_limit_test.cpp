@@ -133,7 +133,7 @@ TEST_P(JogToTheLimit, StopsWithinAPulseOfItAndNeverBeyond) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, JogToTheLimit, testing::ValuesIn(jog_cases));
 
-TEST(ContinuousJog, AtALimitIsRefusedThatWayAndGoesTheOther) {
+TEST(ContinuousJog, AtALimitIsRejectedTowardsItAndAcceptedAwayFromIt) {
     Operated o(rack_of({.start = 300}));
     o.at(0.1, [](Machine& m) { static_cast<void>(m.jog('X', 20)); });
     o.at(0.2, [&](Machine& m) {
@@ -178,7 +178,7 @@ TEST(Machine, JogsEveryAxisOfTheRouterWithoutALostStep) {
 }
 
 /// The first line of a path has one pulse, and its AX1, at the limit switch, none; AX1 is not part of the next line.
-TEST(LimitSwitch, EndsAPathWhoseFirstAxisStandsAtIt) {
+TEST(LimitSwitch, EndsAPathWhoseFirstAxisIsOnIt) {
     rack::RackConfig config = router();
     config.controller.profile = "jerk_limited";
     Operated o(config);

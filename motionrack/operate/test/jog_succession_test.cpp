@@ -63,12 +63,12 @@ Result<void> release(Machine& m, double) {
     return m.jog('X', 0);
 }
 
-TEST(JogSuccession, OfAPulseAxisIsNeverCalledStandstill) {
+TEST(JogSuccession, OfAPulseAxisNeverReportsStandstill) {
     expect_never_called_standstill(two_axes(), jog_by, 0.158, 0.168);
     expect_never_called_standstill(two_axes(), jog_to, 0.158, 0.168);
 }
 
-TEST(JogSuccession, OfAServoIsNeverCalledStandstill) {
+TEST(JogSuccession, OfAServoNeverReportsStandstill) {
     expect_never_called_standstill(carriage(), release, 0.1, 0.105);
 }
 

@@ -108,7 +108,7 @@ TEST_F(JournalWriterTest, RecordsWhatRanAndWhereTheMachineStopped) {
     EXPECT_TRUE(last.axes[0].position_valid);
 }
 
-TEST_F(JournalWriterTest, HasOneEntryOfAStopThatCameOnTwoWays) {
+TEST_F(JournalWriterTest, HasOneEntryOfAStopWithTwoSources) {
     open();
     const auto stop = [&](int ms, const char* who, const char* address, bool releases = false) {
         book_->stopped({milliseconds(ms), {who, address, "STOP"}, {}, fmt::format("{} {}", who, ms), releases});
@@ -125,7 +125,7 @@ TEST_F(JournalWriterTest, HasOneEntryOfAStopThatCameOnTwoWays) {
         << "a second later, and after a reset, it is another one";
 }
 
-TEST_F(JournalWriterTest, IsNotFilledByStopsOfAMachineThatIsIdle) {
+TEST_F(JournalWriterTest, IsNotFloodedByStopsOfAnIdleMachine) {
     open();
     const auto stop = [&](int ms, MachineState state) {
         const std::string who = ms % 2 == 0 ? "even" : "odd";
@@ -140,7 +140,7 @@ TEST_F(JournalWriterTest, IsNotFilledByStopsOfAMachineThatIsIdle) {
     EXPECT_EQ(stops.back(), "100000") << "one that stops something is always written";
 }
 
-TEST_F(JournalWriterTest, TheNextRunContinuesWhereTheMachineStood) {
+TEST_F(JournalWriterTest, TheNextRunStartsAtThePositionOfTheMachine) {
     open();
     run(
         {}, [](const Status& s) { return s.axes[0].commanded == 12 && s.state == MachineState::standstill; },
@@ -161,7 +161,7 @@ TEST_F(JournalWriterTest, TheNextRunContinuesWhereTheMachineStood) {
     EXPECT_NEAR(last_.axes[0].true_position, 15, 1e-9);
 }
 
-TEST_F(JournalWriterTest, HasWhereTheMachineCameToRestThatWasEndedInAJog) {
+TEST_F(JournalWriterTest, HasTheStopPositionOfAMachineThatEndedDuringAJog) {
     open();
     run(
         {}, [](const Status& s) { return s.axes[0].commanded > 20; }, [](Machine& m) { m.quit(); },
@@ -177,7 +177,7 @@ TEST_F(JournalWriterTest, HasWhereTheMachineCameToRestThatWasEndedInAJog) {
     EXPECT_TRUE(last.axes[0].position_valid);
 }
 
-TEST_F(JournalWriterTest, AfterAKillItKnowsWhatRanAndWhereAndNoPositionIsValid) {
+TEST_F(JournalWriterTest, AfterAKillReportsTheProgramAndPositionsAndInvalidatesThem) {
     open();
     // No entry of the program's end is written: as if it had been killed during the move.
     run(
@@ -227,7 +227,7 @@ TEST_F(JournalWriterTest, ReportsAlarmsSettingsAndInvalidPositions) {
     EXPECT_THAT(texts("job"), Contains(HasSubstr("failed at line 1")));
 }
 
-TEST_F(JournalWriterTest, MakesNothingOfWhatItCannotRead) {
+TEST_F(JournalWriterTest, IgnoresUnreadableEntries) {
     for (const char* kept :
          {"", "[]", "7", "{\"axes\": 3}",
           "{\"axes\": [1, {\"letter\": 5}, {\"letter\": \"X\"}, {\"letter\": \"XY\", \"true_position\": 1, "
@@ -269,7 +269,7 @@ TEST_F(JournalWriterTest, ReadsPositionsAsFormerVersionsWroteThem) {
     EXPECT_EQ(last.sentence, "");
 }
 
-TEST_F(JournalWriterTest, KeepsWhereAnAxisIsThatWasPushedWhileTheMachineStands) {
+TEST_F(JournalWriterTest, RecordsThePositionOfAnAxisPushedAtStandstill) {
     open();
     Status status;
     status.state = MachineState::standstill;
@@ -290,7 +290,7 @@ TEST_F(JournalWriterTest, KeepsWhereAnAxisIsThatWasPushedWhileTheMachineStands) 
 }
 
 /// A servo behind a card that hangs drifts on; its last position is not that of the last period.
-TEST_F(JournalWriterTest, KeepsWhereAnAxisIsAtTheEndOfTheRun) {
+TEST_F(JournalWriterTest, RecordsThePositionOfEachAxisAtTheEndOfTheRun) {
     open();
     Status status;
     status.state = MachineState::error_stop;

@@ -83,7 +83,7 @@ struct Real : Operated {
     std::vector<std::string> said;
 };
 
-TEST(RealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
+TEST(RealCard, IsOpenedByItsFirstCallAndClosedAtTheEnd) {
     CardFile file("/dev/zero");
     Real o(file);
     o.at(0.02, [](Machine& m) { EXPECT_EQ(m.service().live(), nullptr); });
@@ -112,7 +112,7 @@ TEST(RealCard, IsTakenByItsFirstCallAndGivenBackAtTheEnd) {
     EXPECT_TRUE(o.alarms().empty());
 }
 
-TEST(RealCard, WithBytePortsIsNotTakenWhileItIsNotReady) {
+TEST(RealCard, WithBytePortsIsNotOpenedWhileItIsNotReady) {
     CardFile file("/dev/zero");  // STAT is 0
     Real o(file, "[card.bench]\ntype = \"databoard4002\"\n");
     o.call(0.05, "position", {});
@@ -123,7 +123,7 @@ TEST(RealCard, WithBytePortsIsNotTakenWhileItIsNotReady) {
     EXPECT_EQ(o.machine->state(), MachineState::standstill);
 }
 
-TEST(RealCard, LeavesTheVirtualOneAndTheMachineAlone) {
+TEST(RealCard, DoesNotAffectTheVirtualOneNorTheMachine) {
     CardFile file("/dev/zero");
     Real o(file);
     o.call(0.05, "SetRange", {{"data", 800'000}});
@@ -135,7 +135,7 @@ TEST(RealCard, LeavesTheVirtualOneAndTheMachineAlone) {
     EXPECT_NEAR(o.x(), 12, 1e-9);
 }
 
-TEST(RealCard, ThatDrivesOnAfterItsStopIsAnAlarmThatStays) {
+TEST(RealCard, StillDrivingAfterItsStopRaisesALatchedAlarm) {
     CardFile file("/dev/zero");
     const fs::path memory = file.memory('\0');
     file.points_to(memory);
@@ -164,7 +164,7 @@ TEST(RealCard, ThatDrivesOnAfterItsStopIsAnAlarmThatStays) {
     o.run(1.5);
 }
 
-TEST(RealCard, IsStoppedByAThreadThatEndsTheProgramForWantOfMemory) {
+TEST(RealCard, IsStoppedIfAThreadEndsTheProgramOutOfMemory) {
     CardFile file("/dev/zero");
     const fs::path memory = file.memory('\0');
     file.points_to(memory);
@@ -221,7 +221,7 @@ TEST(RealCard, IsStoppedWhereAnInternalCheckEndsTheProgram) {
     EXPECT_EQ(text_of(memory).substr(0, 2), "\x27\x0F") << "the quick stop of all axes";
 }
 
-TEST(RealCard, ThatWasGivenBackIsNotStoppedAtTheEndOfTheProgram) {
+TEST(RealCard, ThatWasClosedIsNotStoppedAtTheEndOfTheProgram) {
     CardFile file("/dev/zero");
     const fs::path memory = file.memory('\0');
     file.points_to(memory);
@@ -233,7 +233,7 @@ TEST(RealCard, ThatWasGivenBackIsNotStoppedAtTheEndOfTheProgram) {
     EXPECT_EQ(text_of(memory), before);
 }
 
-TEST(RealCard, ThatDoesNotStopHoldsUpNoFunctionAndNoAlarm) {
+TEST(RealCard, ThatDoesNotStopDelaysNoFunctionAndNoAlarm) {
     CardFile file("/dev/zero");
     file.points_to(file.memory('\0'));
     Real o(file);
@@ -254,7 +254,7 @@ TEST(RealCard, ThatDoesNotStopHoldsUpNoFunctionAndNoAlarm) {
     EXPECT_THAT(o.said[0], HasSubstr("had not ended 100 ms after the stop and was aborted"));
 }
 
-TEST(RealCard, ThatTheComputerRefusesInServiceIsAnAlarmThatStays) {
+TEST(RealCard, WithARejectedAccessInServiceRaisesALatchedAlarm) {
     CardFile file("/dev/zero");
     const fs::path memory = file.memory('\0');
     file.points_to(memory);
@@ -299,15 +299,15 @@ void expect_the_alarm_of_an_empty_slot(double call_at, const std::string& functi
         << "-1 is not its position";
 }
 
-TEST(RealCard, WhoseRegistersAllReadOnesWhileItStandsIsAnAlarmThatStays) {
+TEST(RealCard, ReadingAllOnesAtStandstillRaisesALatchedAlarm) {
     expect_the_alarm_of_an_empty_slot(0.4, "moving", {{"axis", 1}});
 }
 
-TEST(RealCard, WhoseRegistersAllReadOnesWhileAFunctionWaitsIsAnAlarmThatStays) {
+TEST(RealCard, ReadingAllOnesWhileAFunctionWaitsRaisesALatchedAlarm) {
     expect_the_alarm_of_an_empty_slot(0.05, "wait", {{"axis", 1}, {"milliseconds", 60'000}});
 }
 
-TEST(RealCard, ThatCannotBeOpenedRefusesTheService) {
+TEST(RealCard, ThatCannotBeOpenedRejectsTheService) {
     struct Bad {
         const char* name;
         const char* says;
@@ -336,7 +336,7 @@ TEST(RealCard, ThatCannotBeOpenedRefusesTheService) {
     }
 }
 
-TEST(RealCard, StandsForACardThatMovesNoAxis) {
+TEST(RealCard, ReplacesACardThatMovesNoAxis) {
     const auto refused = [](const std::vector<std::string>& places, const char* more = beside) {
         MachineSettings settings;
         for (const std::string& place : places) settings.live.push_back(*read_live_place(place));
@@ -353,7 +353,7 @@ TEST(RealCard, StandsForACardThatMovesNoAxis) {
     EXPECT_EQ(refused({"bench=port:/dev/zero"}), "");
 }
 
-TEST(RealCard, IsNamedWithItsAddress) {
+TEST(RealCard, IsReportedWithItsAddress) {
     const Result<LivePlace> good = read_live_place("bench=port:/dev/port,offset=0x300,width=8");
     ASSERT_TRUE(good) << good.error().message;
     EXPECT_EQ(good->card, "bench");

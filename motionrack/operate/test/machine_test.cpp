@@ -100,7 +100,7 @@ TEST(Machine, HoldsAProgramOnItsPathAndResumesIt) {
     EXPECT_NEAR(o.y(), 20, 0.5 / 640);
 }
 
-TEST(Machine, DrivesTheNextLineAfterAStopInAPause) {
+TEST(Machine, ExecutesTheNextLineAfterAStopDuringAPause) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_TRUE(m.line("G1 X11 F600", 1));
@@ -132,7 +132,7 @@ TEST(Machine, ReportsTheLineAtWhichItWaits) {
     o.run(0.8);
 }
 
-TEST(Machine, StoppedStandsAndAfterAResetTheNextLineBeginsThere) {
+TEST(Machine, StartsTheNextLineAtTheStopPositionAfterAReset) {
     Operated o(two_axes());
     double stopped_x = 0;
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X50\nG1 Y20\n", "p")); });
@@ -151,7 +151,7 @@ TEST(Machine, StoppedStandsAndAfterAResetTheNextLineBeginsThere) {
     EXPECT_DOUBLE_EQ(o.y(), 0);
 }
 
-TEST(Machine, StopsFromAHoldAndIsNeverRefusedAStop) {
+TEST(Machine, StopsFromAFeedHoldAndNeverRejectsAStop) {
     Operated o(two_axes());
     o.machine->stop();
     o.at(0.05, [](Machine& m) { m.reset(); });
@@ -168,7 +168,7 @@ TEST(Machine, StopsFromAHoldAndIsNeverRefusedAStop) {
     EXPECT_NEAR(o.x(), 12, 0.5 / 640);
 }
 
-TEST(Machine, JogsWhileItIsRenewedAndStopsByItself) {
+TEST(Machine, JogsWhileRenewedAndStopsWithoutRenewal) {
     Operated o(two_axes());
     for (double t = 0.1; t < 1.05; t += 0.1) o.at(t, [](Machine& m) { EXPECT_TRUE(m.jog('X', 10)); });
     o.run(3);
@@ -178,7 +178,7 @@ TEST(Machine, JogsWhileItIsRenewedAndStopsByItself) {
     EXPECT_LT(o.stood_since, 1.35);
 }
 
-TEST(Machine, AfterAJogDrivesLinesFromWhereItStands) {
+TEST(Machine, StartsLinesAtItsPositionAfterAJog) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 3, 10)); });
     o.at(2, [](Machine& m) { EXPECT_TRUE(m.line("G91 G1 X1 Y1 F600", 1)); });
@@ -189,7 +189,7 @@ TEST(Machine, AfterAJogDrivesLinesFromWhereItStands) {
     EXPECT_NEAR(o.machine->status().axes[0].actual, 14, 1.5 / 640);
 }
 
-TEST(Machine, OverridesAndSingleStepsAProgram) {
+TEST(Machine, AppliesOverridesAndSingleBlockToAProgram) {
     Operated o(two_axes());
     int holds = 0;
     o.at(0.1, [](Machine& m) {
@@ -237,7 +237,7 @@ TEST(Machine, StopsItsHoming) {
     EXPECT_FALSE(o.machine->status().axes[0].position_valid);
 }
 
-TEST(Machine, TakesADeclaredPositionAsValid) {
+TEST(Machine, AcceptsADeclaredPositionAsValid) {
     Operated o(router());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 33)); });
     o.run(1);
@@ -278,7 +278,7 @@ TEST(Machine, AcceptsCommandsOfManyThreads) {
     EXPECT_FALSE(machine->state() == MachineState::error_stop);
 }
 
-TEST(Machine, JogsAlongLinesOneBehindTheOtherAndKeepsItsModes) {
+TEST(Machine, JogsAlongConsecutiveLinesAndKeepsItsModalState) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.line("G20 G91", 1)); });
     o.at(0.2, [](Machine& m) {
@@ -311,7 +311,7 @@ TEST(Machine, CancelsAJogAlongALineAndContinuesFromThere) {
     EXPECT_NEAR((o.x() - 10) / 190, (o.y() + 1) / 100, 1e-3);
 }
 
-TEST(Machine, JogsNeitherPastItsTravelNorWithoutASpeed) {
+TEST(Machine, RejectsJogsBeyondItsTravelOrWithoutAFeedRate) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_THAT(m.jog_to({301, 0, 0, 0, 0, 0}, 20).error().message,
@@ -366,7 +366,7 @@ TEST(Machine, ReportsThePositionsOfTheOtherAxesWhileOneIsJogged) {
 /// Lines without motion and without duration.
 class LineOfNothing : public testing::TestWithParam<const char*> {};
 
-TEST_P(LineOfNothing, IsDrivenAloneAndBetweenOthers) {
+TEST_P(LineOfNothing, IsExecutedAloneAndBetweenOthers) {
     for (const char* profile : {"trapezoid", "jerk_limited"}) {
         SCOPED_TRACE(profile);
         rack::RackConfig config = two_axes();

@@ -38,7 +38,7 @@ bool x_moves(Machine& m) {
     return m.rack().axes()[0].velocity(m.now()) != 0;
 }
 
-TEST(ManualAccess, ReachesACardThatOnlyMeasuresWhileAxesMoveAndNoOther) {
+TEST(ManualAccess, IsAllowedToMeasuringCardsOnlyWhileAxesMove) {
     Operated o(two_axes(with_card));
     int answered = 0;
     std::string refused;
@@ -73,7 +73,7 @@ TEST(ManualAccess, WritesNothingWhileAStopIsInForce) {
     o.run(0.7);
 }
 
-TEST(ManualAccess, GivesUpAWriteIfAStopComesBeforeIt) {
+TEST(ManualAccess, CancelsAWriteIfAStopPrecedesIt) {
     Operated o(two_axes());
     std::string answer;
     o.at(0.1, [&](Machine& m) {
@@ -120,7 +120,7 @@ void PrintTo(const EndOfMotion& end, std::ostream* out) {
 
 class MotionByRegisters : public testing::TestWithParam<EndOfMotion> {};
 
-TEST_P(MotionByRegisters, EndsWithEveryStopAndBlocksEveryStart) {
+TEST_P(MotionByRegisters, EndsOnEveryStopAndPreventsEveryStart) {
     Operated o(two_axes("[safety]\ndoor = true\n"));
     double moved_to = 0;
     o.at(0.1, [](Machine& m) { drive_x(m); });

@@ -34,7 +34,7 @@ TEST(MachineWithoutAxes, RunsForEachCardAlone) {
     }
 }
 
-TEST(MachineWithoutAxes, RefusesProgramsLinesJogsAndHoming) {
+TEST(MachineWithoutAxes, RejectsProgramsLinesJogsAndHoming) {
     Operated o(cards_alone(bench));
     std::vector<std::string> said;
     o.at(0.1, [&](Machine& m) {
@@ -89,7 +89,7 @@ TEST(MachineWithoutAxes, DrivesACardInService) {
     EXPECT_THAT(said, ElementsAre("Written.", HasSubstr("X drives")));
 }
 
-TEST(MachineWithoutAxes, IsNotAskedForPositionsAfterItsLastRun) {
+TEST(MachineWithoutAxes, NeedsNoPositionsAfterItsLastRun) {
     const rack::RackConfig config = cards_alone(bench);
     journal::LastRun last;
     last.clean = true;

@@ -84,7 +84,7 @@ TEST_P(JogThatBreaks, KeepsOrInvalidatesThePositionAsAProgramDoesAndAlarms) {
 INSTANTIATE_TEST_SUITE_P(Faults, JogThatBreaks, testing::ValuesIn(broken_jogs),
                          [](const auto& each) { return std::string(each.param.name); });
 
-TEST(Machine, HasAValidPositionAgainThatIsDeclaredAfterLostSteps) {
+TEST(Machine, HasAValidPositionOnceOneIsDeclaredAfterLostSteps) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 20, 50)); });
     o.at(0.3, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.lose_steps=64", "X")); });
@@ -130,7 +130,7 @@ TEST(Machine, InvalidatesAnAxisThatWasResetWhileItStillStopped) {
     EXPECT_THAT(status.alarms[0].text, HasSubstr("The following error of X was"));
 }
 
-TEST(Machine, MovesNoAxisBetweenAPositionThatIsDeclaredAndItsTaking) {
+TEST(Machine, MovesNoAxisBetweenTheDeclarationOfAPositionAndItsEffect) {
     Operated o(two_axes());
     const auto refused = [](const Result<void>& order) {
         EXPECT_THAT(order ? "taken" : order.error().message, HasSubstr("positions of axes are being set"));
@@ -148,7 +148,7 @@ TEST(Machine, MovesNoAxisBetweenAPositionThatIsDeclaredAndItsTaking) {
     EXPECT_NEAR(o.y(), 7, 1e-3);
 }
 
-TEST(Machine, InvalidatesAnAxisThatIsPushedBetweenItsPositionIsDeclaredAndItsTaking) {
+TEST(Machine, InvalidatesAnAxisPushedBetweenTheDeclarationOfItsPositionAndItsEffect) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         EXPECT_TRUE(m.set_position('X', 5));
@@ -184,14 +184,14 @@ void push_what_is_home(Operated& o, void (*then)(Machine&)) {
     EXPECT_THAT(alarms, testing::ElementsAre(HasSubstr("The position of axis A is not valid any more.")));
 }
 
-TEST(Machine, InvalidatesAnAxisThatIsPushedWhileOthersStillSearchHome) {
+TEST(Machine, InvalidatesAnAxisPushedWhileOthersAreStillHoming) {
     Operated o(router());
     push_what_is_home(o, [](Machine&) {});
     EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().reason;
     for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(o.machine->status().axes[i].position_valid);
 }
 
-TEST(Machine, InvalidatesAnAxisThatIsPushedWhileTheSearchOfOthersIsStopped) {
+TEST(Machine, InvalidatesAnAxisPushedWhileTheHomingOfOthersIsStopped) {
     Operated o(router());
     push_what_is_home(o, [](Machine& m) { m.stop({"anna", "", "STOP"}); });
     EXPECT_EQ(o.machine->state(), MachineState::error_stop);
@@ -220,7 +220,7 @@ const char* const with_index =
     "[axis.X.switches]\nlimit_minus_mm = -8\nlimit_plus_mm = 302\nhome_mm = 2\n[axis.X.homing]\nmethod = 4\n"
     "home_offset_mm = 0\n";
 
-TEST(SecondIndex, IsNotedFromTheSecondSearchOn) {
+TEST(SecondIndex, IsReportedFromTheSecondHomingOn) {
     Operated o(two_axes(with_index));
     bool disturbs = false, at_switch = false, pulsed = false;
     o.each_status([&](const Status& status) {

@@ -18,7 +18,7 @@ TEST(Machine, IsDisabledAtFirstAndRejectsMotion) {
     EXPECT_THAT(machine->begin_program("G0 X1\n", "p").error().message, HasSubstr("disabled"));
 }
 
-TEST(Machine, PressedToAnEmergencyStopHasNoValidPositionAndNeedsAReset) {
+TEST(Machine, HasNoValidPositionAfterAnEmergencyStopAndNeedsAReset) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F3000\nG1 X90\n", "p")); });
     o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
@@ -56,7 +56,7 @@ TEST(Machine, ReportsWhenTheEmergencyStopIsPressedAtAStandstill) {
     EXPECT_TRUE(o.machine->status().axes[0].position_valid) << "nothing moved";
 }
 
-TEST(Machine, RunIntoALimitSwitchStopsWithAnAlarmAndKeepsItsPosition) {
+TEST(Machine, StopsWithAnAlarmAtALimitSwitchAndKeepsItsPosition) {
     Operated o(two_axes("[axis.X.switches]\nlimit_plus_mm = 40\n"));
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X80\n", "p")); });
     o.run(6);
@@ -127,7 +127,7 @@ TEST(Machine, RefusesAProgramWithoutAnyWord) {
     o.run(1);
 }
 
-TEST(Machine, DisabledAfterAnErrorStaysSoWhenItIsReset) {
+TEST(Machine, StaysDisabledWhenResetAfterAnError) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.enable(false)); });

@@ -46,7 +46,7 @@ struct Served : Operated {
     std::vector<std::string> said;
 };
 
-TEST(Service, CallsFunctionsAndGivesTheCardBackWithInvalidPositions) {
+TEST(Service, CallsFunctionsAndReleasesTheCardWithInvalidPositions) {
     Served o;
     o.begin(0.05);
     o.call(0.1, "SetRange", {{"data", 800'000}});
@@ -78,7 +78,7 @@ TEST(Service, CallsFunctionsAndGivesTheCardBackWithInvalidPositions) {
     EXPECT_NEAR(o.y(), 3, 1e-9);
 }
 
-TEST(Service, OfACardThatPositionsItsAxisGivesItBack) {
+TEST(Service, OfACardThatPositionsItsAxisReleasesIt) {
     Served o(carriage());
     const auto set_up = [](Machine& m) { EXPECT_TRUE(m.set_position('X', 30)); };
     o.at(0.02, set_up);
@@ -119,7 +119,7 @@ TEST(Service, OfACardThatPositionsItsAxisEndsAtALimitSwitch) {
     EXPECT_NE(o.said[2].find("Stopped on request"), std::string::npos) << o.said[2];
 }
 
-TEST(Service, DrivesNothingElse) {
+TEST(Service, PreventsOtherMotion) {
     Served o;
     o.begin(0.05);
     o.at(0.1, [&](Machine& m) {
@@ -142,7 +142,7 @@ TEST(Service, DrivesNothingElse) {
     o.run(0.2);
 }
 
-TEST(Service, IsNotBegunWhileSomethingMovesOrAStopIsInForce) {
+TEST(Service, CannotStartDuringMotionOrAStop) {
     Served o;
     const auto refused = [&](double seconds, const std::string& why) {
         o.at(seconds, [=](Machine& m) {
@@ -183,7 +183,7 @@ TEST(Service, IsNeededForACardThatTheControllerDrives) {
                           "refused: SetV: data is 9000, but must be 1 to 8000 x M pulses/s. Nothing was done."}));
 }
 
-TEST(Service, IsBegunByACallToACardThatNothingDrives) {
+TEST(Service, StartsOnACallToACardThatNothingDrives) {
     Served o;
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.enable(false)); });
     o.call(0.1, "SetRange", {{"data", 800'000}}, "free");
@@ -266,7 +266,7 @@ INSTANTIATE_TEST_SUITE_P(
                            MachineState::error_stop}),
     [](const auto& each) { return std::string(each.param.name); });
 
-TEST(Service, StopsAtALimitSwitchThatTheChipDoesNotHeed) {
+TEST(Service, StopsAtALimitSwitchThatTheChipIgnores) {
     Served o("switches = { limit_minus_mm = -5, limit_plus_mm = 305 }\n");  // for Y
     o.begin(0.05);
     o.call(0.08, "SetRange", {{"data", 800'000}});

@@ -9,7 +9,7 @@
 namespace motionrack::operate {
 namespace {
 
-TEST(OperatedServoAxis, TakesTheFirstWayOfALineFromWhereItStands) {
+TEST(OperatedServoAxis, MeasuresTheFirstDistanceOfALineFromItsActualPosition) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [&](Machine& m) { EXPECT_TRUE(m.line("G91 G0 X5", 1)); });
@@ -22,7 +22,7 @@ TEST(OperatedServoAxis, TakesTheFirstWayOfALineFromWhereItStands) {
     EXPECT_NEAR(o.x(), 130, 0.3);
 }
 
-TEST(OperatedServoAxis, DrivesALongLineInOneGo) {
+TEST(OperatedServoAxis, ExecutesALongLineInOneMove) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
@@ -31,7 +31,7 @@ TEST(OperatedServoAxis, DrivesALongLineInOneGo) {
     EXPECT_GT(o.peak_velocity, 480) << "of 500";
 }
 
-TEST(OperatedServoAxis, ContinuesAfterAHoldToWhereItWasSent) {
+TEST(OperatedServoAxis, ContinuesToItsTargetAfterAFeedHold) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
@@ -45,7 +45,7 @@ TEST(OperatedServoAxis, ContinuesAfterAHoldToWhereItWasSent) {
     EXPECT_NEAR(o.x(), 600, 0.3);
 }
 
-TEST(OperatedServoAxis, CountsAfterAStopFromWhereItCameToRest) {
+TEST(OperatedServoAxis, CountsFromItsStopPosition) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
@@ -65,7 +65,7 @@ TEST(OperatedServoAxis, CountsAfterAStopFromWhereItCameToRest) {
     EXPECT_NEAR(o.x(), 600, 0.3);
 }
 
-TEST(OperatedServoAxis, CanBeDeclaredAfterAStoppedSearchForHome) {
+TEST(OperatedServoAxis, CanBeDeclaredAfterAStoppedHoming) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X200", 1)); });
@@ -107,7 +107,7 @@ TEST(OperatedServoAxis, MovesAgainAfterItsCardWasReset) {
 }
 
 /// The host waits for the card, then for its position, before the line has failed; lines are taken all the while.
-TEST(OperatedServoAxis, IsUsableAgainWhereLinesAndHoldsCameWhileItsHungCardRefusedOne) {
+TEST(OperatedServoAxis, IsUsableAfterLinesAndHoldsDuringAHangOfItsCard) {
     for (const double hangs_at : {0.15, 0.3, 0.33, 0.4}) {
         Operated o(carriage());
         o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
@@ -161,7 +161,7 @@ TEST(OperatedServoAxis, ContinuesCountingWhenPushedBeforeItsCardKnowsThePosition
 }
 
 /// Its watchdog does not reset it then, so that it drives on by its last commands.
-TEST(OperatedServoAxis, StandsWhenItsCardHasHungForLessThanASecond) {
+TEST(OperatedServoAxis, StaysAtStandstillIfItsCardHangsForLessThanASecond) {
     struct Motion {
         const char* name;
         void (*begin)(Machine& m);

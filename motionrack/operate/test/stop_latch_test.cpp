@@ -44,14 +44,14 @@ void expect_latched_until_reset(Operated& o, double x) {
     EXPECT_NEAR(o.x(), 30, 0.01);
 }
 
-TEST(StopLatch, HoldsAMachineThatDwells) {
+TEST(StopLatch, StopsAMachineDuringADwell) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nG4 P5\nG1 X80\n", "p")); });
     press_and_release(o);
     expect_latched_until_reset(o, 20);
 }
 
-TEST(StopLatch, HoldsAMachineThatIsHeld) {
+TEST(StopLatch, StopsAMachineDuringAFeedHold) {
     Operated o(two_axes());
     double held = 0;
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X80\n", "p")); });
@@ -73,7 +73,7 @@ TEST(StopLatch, HoldsAMachineThatIsHeld) {
     EXPECT_EQ(o.machine->state(), MachineState::standstill);
 }
 
-TEST(StopLatch, HoldsAMachineThatWaitsAtM0) {
+TEST(StopLatch, StopsAMachineWaitingAtM0) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nM0\nG1 X80\n", "p")); });
     o.at(1.5, [](Machine& m) { EXPECT_EQ(m.state(), MachineState::hold); });
@@ -81,7 +81,7 @@ TEST(StopLatch, HoldsAMachineThatWaitsAtM0) {
     expect_latched_until_reset(o, 20);
 }
 
-TEST(StopLatch, HoldsAMachineThatStepsLineByLine) {
+TEST(StopLatch, StopsAMachineInSingleBlock) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         m.set_single_block(true);
@@ -93,7 +93,7 @@ TEST(StopLatch, HoldsAMachineThatStepsLineByLine) {
     expect_latched_until_reset(o, 20);
 }
 
-TEST(StopLatch, HoldsAMachineThatWaitsForTheNextLine) {
+TEST(StopLatch, StopsAMachineWaitingForTheNextLine) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.line("G21 G90 G1 X20 F1200", 1)); });
     press_and_release(o);
@@ -142,18 +142,18 @@ TEST(StopLatch, IsNotReleasedByAResetBeforeAStopCommand) {
     expect_reset_does_not_release([](Machine& m) { m.stop(); });
 }
 
-TEST(StopLatch, IsNotReleasedByAResetThatCameBeforeALimitSwitch) {
+TEST(StopLatch, IsNotReleasedByAResetBeforeALimitSwitch) {
     expect_reset_does_not_release([](Machine& m) { EXPECT_TRUE(m.wires().force("m.xlmtp", 0)); });
 }
 
-TEST(StopLatch, IsNotReleasedByAResetThatCameBeforeAShortPressOfTheButton) {
+TEST(StopLatch, IsNotReleasedByAResetBeforeAShortPressOfTheButton) {
     expect_reset_does_not_release([](Machine& m) {
         EXPECT_TRUE(m.wires().force("estop", 0));
         EXPECT_TRUE(m.wires().force("estop", 1));
     });
 }
 
-TEST(StopLatch, IsReleasedByAResetThatIsOrderedWhileItStillBrakes) {
+TEST(StopLatch, IsReleasedByAResetRequestedDuringDeceleration) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG0 X200\n", "p")); });
     o.at(1, [](Machine& m) { m.stop(); });
@@ -165,7 +165,7 @@ TEST(StopLatch, IsReleasedByAResetThatIsOrderedWhileItStillBrakes) {
     EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().reason;
 }
 
-TEST(StopLatch, StaysSetWhileItsCauseIsThere) {
+TEST(StopLatch, StaysSetWhileItsCauseIsActive) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().force("m.xalarm", 0)); });
     o.at(0.5, [](Machine& m) {
@@ -197,7 +197,7 @@ TEST(StopLatch, EndsAJogThatIsRenewedThroughAShortPressOfTheButton) {
     EXPECT_LT(o.stood_since, 1.06);
 }
 
-TEST(StopLatch, LetsAnAxisBeJoggedOffItsLimitSwitchAfterAReset) {
+TEST(StopLatch, AllowsJoggingOffALimitSwitchAfterAReset) {
     Operated o(two_axes("[axis.X.switches]\nlimit_plus_mm = 12\n"));
     for (double t = 0.1; t < 1; t += 0.1) o.at(t, [](Machine& m) { (void)m.jog('X', 5); });
     o.at(2, [](Machine& m) {
@@ -297,7 +297,7 @@ TEST(StopLatch, InvalidatesPositionsAtOnceWhereTheEmergencyStopEndsThePulsesOfAH
     o.run(1);
 }
 
-TEST(StopLatch, DoesNotTakeTheSwitchesOfAHomingForAStop) {
+TEST(StopLatch, IsNotSetByTheSwitchesOfAHoming) {
     Operated o(two_axes(switches));
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
     o.run(20);

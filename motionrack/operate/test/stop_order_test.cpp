@@ -10,7 +10,7 @@ using testing::HasSubstr;
 
 const std::string door = "[safety]\ndoor = true\n";
 
-TEST(Disabling, IsNotOvertakenByAStart) {
+TEST(Disabling, PrecedesALaterStart) {
     Operated o(two_axes("[axis.X.switches]\nhome_mm = 0\n"));
     o.at(0.05, set_all_positions);
     o.at(0.1, [](Machine& m) {
@@ -25,7 +25,7 @@ TEST(Disabling, IsNotOvertakenByAStart) {
     EXPECT_EQ(o.machine->state(), MachineState::disabled);
 }
 
-TEST(Reset, IsNotOvertakenByAStart) {
+TEST(Reset, PrecedesALaterStart) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         m.reset();
@@ -37,7 +37,7 @@ TEST(Reset, IsNotOvertakenByAStart) {
     EXPECT_EQ(o.x(), 12);
 }
 
-TEST(Cancelling, AtStandstillEndsNothingThatIsCommandedAfterIt) {
+TEST(Cancelling, AtStandstillDoesNotEndLaterCommands) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         m.cancel();
@@ -77,12 +77,12 @@ TEST_P(HoldBeforeTheFirstLine, HoldsTheProgram) {
     expect_held_until_resumed([](Machine& m) { EXPECT_TRUE(m.hold()); }, [](Machine&) {});
 }
 
-TEST_P(HoldBeforeTheFirstLine, ComesFromTheDoor) {
+TEST_P(HoldBeforeTheFirstLine, IsRequestedByTheDoor) {
     expect_held_until_resumed([](Machine& m) { EXPECT_TRUE(m.wires().force("door", 0)); },
                               [](Machine& m) { EXPECT_TRUE(m.wires().force("door", 1)); });
 }
 
-TEST_P(HoldBeforeTheFirstLine, ComesFromTheLossOfTheRecord) {
+TEST_P(HoldBeforeTheFirstLine, IsRequestedByTheLossOfTheJournal) {
     Operated o(config());
     o.at(0.05, set_all_positions);
     o.at(0.1, [](Machine& m) {
@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Profiles, HoldBeforeTheFirstLine, testing::Bool(),
 /// A probing move of 100 mm that touches nothing.
 class ProbingMove : public testing::TestWithParam<bool> {};
 
-TEST_P(ProbingMove, EndsWhenTheDoorOpensOrTheRecordIsLost) {
+TEST_P(ProbingMove, EndsWhenTheDoorOpensOrTheJournalIsLost) {
     rack::RackConfig config = *rack::read_rack_file((source_root / "examples/16_probe/machine.toml").string()).config;
     config.safety.door = true;
     Operated o(config);
@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(By, ProbingMove, testing::Bool(),
 /// STOP at full velocity, then another cause in the ramp or at standstill.
 class AnotherCause : public testing::TestWithParam<double> {};
 
-TEST_P(AnotherCause, BehindAStopCommandHasItsOwnAlarm) {
+TEST_P(AnotherCause, AfterAStopCommandHasItsOwnAlarm) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F6000\nG1 X200\nM2\n", "p")); });
     o.at(1, [](Machine& m) { m.stop({"anna", "", "STOP"}); });
@@ -155,7 +155,7 @@ TEST_P(AnotherCause, BehindAStopCommandHasItsOwnAlarm) {
 INSTANTIATE_TEST_SUITE_P(After, AnotherCause, testing::Values(0.004, 0.5),
                          [](const auto& each) { return each.param < 0.1 ? "InTheRamp" : "AtStandstill"; });
 
-TEST(DeclaredPositions, AreAllCarriedOutHoweverFastTheyCome) {
+TEST(DeclaredPositions, AreAllExecutedHoweverFastTheyArrive) {
     Operated o(carriage());
     double last = 0;
     o.each_status([&](const Status& status) {

@@ -313,7 +313,7 @@ TEST(GeneralOutputs, GoLowAtAnEmergencyStopAndKeepTheirLevelsAtAllOtherStops) {
     }
 }
 
-TEST(TableOfReactions, HasOneAnswerOfEachPartToEachSource) {
+TEST(TableOfReactions, HasOneReactionOfEachPartToEachSource) {
     std::set<std::string_view> parts;
     for (const rack::StopReaction& reaction : rack::stop_reactions()) parts.insert(reaction.part);
     for (const rack::CardType& type : rack::card_types())

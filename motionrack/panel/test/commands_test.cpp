@@ -56,7 +56,7 @@ TEST(AskingThePanel, ChecksFieldsWithASentence) {
     a.run(0.4);
 }
 
-TEST(Operator, EnablesJogsAndDrivesAProgram) {
+TEST(Operator, EnablesJogsAndRunsAProgram) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
@@ -78,7 +78,7 @@ TEST(Operator, EnablesJogsAndDrivesAProgram) {
     EXPECT_EQ(a.machine->state(), operate::MachineState::standstill);
 }
 
-TEST(Operator, StopsAnythingWithoutAnyRight) {
+TEST(Operator, StopsEverythingWithoutAnyRole) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "enable", {{"on", true}});
@@ -106,7 +106,7 @@ TEST(Operator, SetsSpeedsStepsZeroAndPositions) {
     EXPECT_NEAR(a.x(), 101, 0.01);
 }
 
-TEST(Operator, SeesAnAlarmAcknowledgesItAndResets) {
+TEST(Operator, ReadsAnAlarmAcknowledgesItAndResets) {
     Asked a(two_axes());
     std::vector<std::string> kinds;
     a.panel->on_event([&](const Event& event) { kinds.push_back(event.kind); });
@@ -172,7 +172,7 @@ TEST(Control, IsTakenOverInAHold) {
     EXPECT_NEAR(a.x(), 60, 1e-3);
 }
 
-TEST(Control, GoesToAnotherOnlyWithForceAndAtStandstill) {
+TEST(Control, IsTransferredOnlyByForceAndAtStandstill) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.at(0.2, bert, "take_control", json::object(), refused(409, "anna"));
@@ -188,7 +188,7 @@ TEST(Control, GoesToAnotherOnlyWithForceAndAtStandstill) {
     EXPECT_FALSE(a.lease.holder());
 }
 
-TEST(CardsByHand, AreReadAndWrittenAtStandstillOnly) {
+TEST(ManualCardAccess, AreReadAndWrittenAtStandstillOnly) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.at(0.2, anna, "read_register", {{"card", "m"}, {"bits", 16}, {"address", 0}},
@@ -206,7 +206,7 @@ TEST(CardsByHand, AreReadAndWrittenAtStandstillOnly) {
     EXPECT_FALSE(a.machine->status().axes[0].position_valid);
 }
 
-TEST(CardsByHand, AnIoflex02IsCalibratedWhileItsAxisMoves) {
+TEST(ManualCardAccess, AnIoflex02IsCalibratedWhileItsAxisMoves) {
     Asked a(
         config_of("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n"
                   "[card.glass]\ntype = \"ioflex02\"\nbase_address = 0x2300\npreloaded = true\n"
@@ -231,7 +231,7 @@ TEST(CardsByHand, AnIoflex02IsCalibratedWhileItsAxisMoves) {
     EXPECT_NEAR(a.x(), 30, 1e-6);
 }
 
-TEST(CardsByHand, HaveWiresAndFaults) {
+TEST(ManualCardAccess, HaveWiresAndFaults) {
     Asked a(two_axes());
     a.good(0.1, "take_control");
     a.good(0.2, "set_wire", {{"name", "m.xin0"}, {"value", 0}});

@@ -21,7 +21,7 @@ struct Folder {
     std::filesystem::path path;
 };
 
-TEST(Order, IsAnsweredWhenTheJournalHasIt) {
+TEST(CommandAnswer, IsAnsweredOnceTheJournalHasIt) {
     const Folder folder;
     auto opened = journal::Journal::open((folder.path / "rack.journal").string());
     ASSERT_TRUE(opened) << opened.error().message;

@@ -64,7 +64,7 @@ TEST(LibraryOnThePage, NeedsTheRoleControlAndTheService) {
     a.run(0.5);
 }
 
-TEST(LibraryOnThePage, IsCalledAndWrittenDown) {
+TEST(LibraryOnThePage, IsCalledAndRecordedInTheJournal) {
     Asked a(two_cards());
     a.good(0.05, "take_control");
     a.good(0.1, "enable", {{"on", true}});
@@ -102,7 +102,7 @@ TEST(LibraryOnThePage, IsCalledAndWrittenDown) {
     a.run(1.3);
 }
 
-TEST(LibraryOnThePage, StopsWithTheControlAndTheConnection) {
+TEST(LibraryOnThePage, StopsWhenControlOrTheConnectionEnds) {
     for (const bool leaves : {false, true}) {
         Asked a(two_cards());
         a.good(0.05, "take_control");

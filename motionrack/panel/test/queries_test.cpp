@@ -47,7 +47,7 @@ TEST(Queries, LeaveTheTraceOfAJobAsItIs) {
     EXPECT_EQ(traced(false), traced(true));
 }
 
-TEST(Channels, AreSharedRefusedAndDropped) {
+TEST(Channels, AreSharedRejectedAndRemoved) {
     Asked a(two_axes());
     std::shared_ptr<ChannelSet> one, other;
     a.at(0.1, [&] {
@@ -233,7 +233,7 @@ TEST(Scope, TriggersOnANumberRunsAgainAndIsStopped) {
     a.run(5.5);
 }
 
-TEST(LaserCard, MarksWhileTheRackRunsAndTheWorkPieceGrows) {
+TEST(LaserCard, MarksWhileTheRackRunsAndAddsToTheWorkpiece) {
     Asked a(demonstration());
     const char* const job = "[drawing]\ntext = \"AB\"\nheight_mm = 4\n[pace]\nmark_speed_mm_s = 200\n";
     a.good(0.1, "take_control");

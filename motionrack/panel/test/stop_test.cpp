@@ -53,7 +53,7 @@ class StopOnThePage : public testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(By, StopOnThePage, testing::Bool(),
                          [](const auto& each) { return each.param ? "TheButton" : "TheOrder"; });
 
-TEST_P(StopOnThePage, PutsOutTheLaserAndStopsBeltsAndStages) {
+TEST_P(StopOnThePage, DisablesTheLaserAndStopsBeltsAndStages) {
     Seen later;
     observe(3, later);
     a.run(3.1);
@@ -72,7 +72,7 @@ TEST_P(StopOnThePage, PutsOutTheLaserAndStopsBeltsAndStages) {
     EXPECT_TRUE(later.belt_waits && later.mask_waits);
 }
 
-TEST_P(StopOnThePage, RefusesToMarkAndToStartPartsBeforeAReset) {
+TEST_P(StopOnThePage, RejectsMarkingAndStartingPartsBeforeAReset) {
     const auto refused = [](const Answer& answer) {
         EXPECT_EQ(answer.status, 409);
         EXPECT_THAT(answer.body["error"]["message"].get<std::string>(), AnyOf(HasSubstr("Reset"), HasSubstr("reset")));
@@ -107,7 +107,7 @@ std::string message_of(const Answer& answer) {
     return answer.body.contains("error") ? answer.body["error"]["message"].get<std::string>() : answer.body.dump();
 }
 
-TEST(DoorOnThePage, PutsOutTheLaserAndStopsBeltsAndStagesUntilItIsClosed) {
+TEST(DoorOnThePage, DisablesTheLaserAndStopsBeltsAndStagesUntilItIsClosed) {
     Asked a(with_door());
     const auto laser = [&] { return *a.machine->wires().get("scan.laser_on"); };
     const auto belt = [&] { return a.machine->rack().track("line")->track().velocity(to_seconds(a.machine->now())); };
@@ -156,7 +156,7 @@ void PrintTo(const EndOfMarking& end, std::ostream* out) {
 
 class MarkCommand : public testing::TestWithParam<EndOfMarking> {};
 
-TEST_P(MarkCommand, IsNotCarriedOutIfSomethingEndsItWhileItsListIsMade) {
+TEST_P(MarkCommand, IsNotExecutedIfItEndsWhileItsListIsBuilt) {
     Asked a(with_door());
     a.good(0.1, "take_control");
     int answered = 0;
