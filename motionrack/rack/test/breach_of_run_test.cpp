@@ -55,7 +55,7 @@ class RunWithABreach : public testing::Test {
     JobOutcome outcome;
 };
 
-TEST_F(RunWithABreach, HasARedHeadline) {
+TEST_F(RunWithABreach, HasARedHeading) {
     EXPECT_FALSE(job->report().verdict.ok);
     const std::string page = trace::report_html(job->report());
     EXPECT_THAT(page, HasSubstr("<p class=\"verdict wrong\">"));

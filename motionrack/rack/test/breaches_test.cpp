@@ -24,7 +24,7 @@ JumpWatch::Jump sample_jump(Place position, int& times, Duration period = millis
     return worst;
 }
 
-TEST(JumpWatch, LetsRampsAndStartsPass) {
+TEST(JumpWatch, AcceptsRampsAndStarts) {
     int times = 0;
     const auto ramp = [](double t) {
         const double v = start_hz / 2 + accel_hz * std::min(t, 0.1);

@@ -95,7 +95,7 @@ void expect_refused(const FieldCase& c, const std::string& value) {
     EXPECT_THAT(reading.errors[0].message, HasSubstr(range_text(*c.field, c.unit)));
 }
 
-TEST(RackKeys, RefusesEveryKeyOutsideItsRangeAndOfTheWrongType) {
+TEST(RackKeys, RejectsEveryKeyOutOfRangeOrOfTheWrongType) {
     for (const FieldCase& c : all_fields()) {
         std::vector<std::string> bad = {"1979-05-27", "[1, 2]"};
         switch (c.field->type) {
@@ -178,7 +178,7 @@ TEST(RackTemplate, EveryVariantReadsWithoutErrorsOrWarnings) {
     EXPECT_EQ(good(*rack_template("single")).axes.size(), 1U);
 }
 
-TEST(RackTemplate, NamesTheTemplatesIfThereIsNoSuchOne) {
+TEST(RackTemplate, ListsTheTemplatesForAnUnknownName) {
     const Result<std::string> text = rack_template("routr");
     ASSERT_FALSE(text.has_value());
     EXPECT_THAT(text.error().message, HasSubstr("router, stage, single, carriage, marking; did you mean 'router'?"));

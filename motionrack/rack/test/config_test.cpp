@@ -200,14 +200,14 @@ TEST(RackFile, ListsAllMistakesAtOnceInTheOrderOfTheFile) {
     EXPECT_THAT(lines, ElementsAre(6, 7, 9, 11, 13, 14)) << all_texts(reading.errors);
 }
 
-TEST(RackFile, AKeyThatWasRefusedGivesNoFurtherErrors) {
+TEST(RackFile, ARejectedKeyCausesNoFurtherErrors) {
     // With the default (300), initial_position_mm would be outside; but the intended max_limit_mm is unknown.
     const RackReading reading = read_rack_text(rack_with("max_limit_mm = \"500\"\ninitial_position_mm = 400\n"));
     ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors);
     EXPECT_EQ(reading.errors[0].location, (TextPosition{6, 16}));
 }
 
-TEST(RackFile, ACardOfUnknownTypeGivesNoErrorsAboutItsPins) {
+TEST(RackFile, ACardOfUnknownTypeCausesNoErrorsAboutItsPins) {
     const RackReading reading = read_rack_text(
         "[card.m]\ntype = \"mcx999\"\nclock_hz = 5\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[wires]\n\"m.xin1\" = "
         "\"estop\"\n");
@@ -267,7 +267,7 @@ TEST(RackFile, WiresByTheDefaultRule) {
     for (const RackWire& wire : config.wires) EXPECT_TRUE(wire.by_default);
 }
 
-TEST(RackFile, WiresOnlyPartsThatAreThere) {
+TEST(RackFile, WiresExistingPartsOnly) {
     EXPECT_THAT(wire_names(good(rack_with("encoder_counts_per_rev = 0\n"))),
                 ElementsAre("estop -> m.emgn", "m.xpm -> X.dir", "m.xpp -> X.step"));
 }
@@ -317,7 +317,7 @@ TEST(RackFile, ACardAloneDrivesFourIdealAxes) {
     EXPECT_EQ(driver_of(*reading.config, "c1.emgn"), "estop");
 }
 
-TEST(RackFile, TheShortFormBesideAxesIsACardWithDefaultSettings) {
+TEST(RackFile, TheShortFormWithAxesIsACardWithDefaultSettings) {
     const RackConfig config = good("card.c1 = \"mcx314\"\n[axis.B]\ncard = \"c1\"\nchannel = \"z\"\n");
     ASSERT_EQ(config.axes.size(), 1U);
     EXPECT_EQ(config.axes[0].letter, 'B');
@@ -326,7 +326,7 @@ TEST(RackFile, TheShortFormBesideAxesIsACardWithDefaultSettings) {
 
 // ---- Text, paths, sizes
 
-TEST(RackFile, NamesAFileThatIsNotThere) {
+TEST(RackFile, ReportsAMissingFileByName) {
     const RackReading reading = read_rack("no/such/rack.toml");
     ASSERT_EQ(reading.errors.size(), 1U);
     EXPECT_EQ(reading.errors[0].kind, ErrorKind::io);
@@ -358,7 +358,7 @@ TEST(RackFile, SurvivesNestingThatWouldOverrunTheStack) {
          "[rack]\nname = \"a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q.r.s.t.u.v [[[[[[[[[[[[[[[[[[[[[\"\n");
 }
 
-TEST(RackFile, TakesTextsOfAllLanguages) {
+TEST(RackFile, AcceptsTextsOfAllLanguages) {
     EXPECT_EQ(good("\xEF\xBB\xBF[rack]\nname = \"Fräse 数控\"  # für Übungen\n" + rack_with("")).name, "Fräse 数控");
     EXPECT_EQ(good("rack = { \"name\" = 'ü' }\n" + rack_with("[wires]\nm.\"xin1\" = \"estop\"\n")).name, "ü");
     EXPECT_EQ(good("[rack]\nname = \"\"\"a\\\n  b \\u00e4\"\"\"\n" + rack_with("")).name, "ab ä");

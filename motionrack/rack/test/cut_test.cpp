@@ -10,7 +10,7 @@ INSTANTIATE_TEST_SUITE_P(OfEachCard, Cut, testing::ValuesIn(benches()),
 INSTANTIATE_TEST_SUITE_P(OfTheMcx314, Cut, testing::ValuesIn(mcx314_benches()),
                          [](const auto& one) { return std::string(one.param.name); });
 
-TEST_P(Cut, ThroughTimeChangesNothing) {
+TEST_P(Cut, OfTimeDoesNotChangeTheEventTrace) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_CUTS", 30);
     for (std::uint64_t i = 0; i < count && !HasFatalFailure(); ++i)
         expect_the_same_however_it_is_cut(GetParam(), first + i);
@@ -18,7 +18,7 @@ TEST_P(Cut, ThroughTimeChangesNothing) {
 
 // While an arc at constant vector speed is skipped, a motor watches another range of the axis: the bound of the skip,
 // the end of the octant, has to be found again afterwards and holds until then.
-TEST(CutThroughAnArc, AtConstantVectorSpeedChangesNothingWhenAMotorWatchesAnotherRange) {
+TEST(CutThroughAnArc, AtConstantVectorSpeedDoesNotChangeTheEventTraceIfAMotorWatchesAnotherRange) {
     expect_the_same_however_it_is_cut(mcx314_benches().back(), 709850194);
 }
 

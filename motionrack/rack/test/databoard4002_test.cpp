@@ -57,7 +57,7 @@ TEST(Databoard4002InARack, ACardAlonePositionsItsIdealMotor) {
 }
 
 /// With the card's program hung, only the relay removes the voltage.
-TEST(Databoard4002InARack, AWireChoosesWhetherTheServoIsBehindTheRelayOrInFrontOfIt) {
+TEST(Databoard4002InARack, AWireSelectsWhetherTheServoIsBehindTheRelayOrBeforeIt) {
     for (const bool direct : {false, true}) {
         Host host(std::string("[card.c1]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"c1\"\n[axis.X.servo]\n") +
                   (direct ? "[wires]\n\"X.drive\" = \"c1.vdirect\"\n" : ""));
@@ -95,7 +95,7 @@ TEST(Databoard4002InARack, ItsWiresAreVoltsAndLevelsAndAnEndStopHoldsTheMove) {
     EXPECT_EQ(*host.session->peek("c1", "POSITION"), there);
 }
 
-TEST(Databoard4002InARack, HasTheTrimTableThatCameWithIt) {
+TEST(Databoard4002InARack, HasTheTrimTableOfItsFile) {
     Host host("[card.c1]\ntype = \"databoard4002\"\ntrim = \"0.5 15000, 10 16383\"\n");
     host.out(1, 13);
     host.command('R', {15'000 & 0xFF, 15'000 >> 8});
@@ -121,7 +121,7 @@ TEST(Databoard4002InARack, QuitKeepsTheTargetWhereItsFileRequiresIt) {
     }
 }
 
-TEST(Databoard4002InARack, DrivenEncoderLinesCutTheIdealMotorOff) {
+TEST(Databoard4002InARack, ForcedEncoderLinesDisconnectTheIdealMotor) {
     Host host("card.c1 = \"databoard4002\"");
     constexpr double quarter[4][2] = {{1, 0}, {1, 1}, {0, 1}, {0, 0}};
     for (int turn = 0; turn < 10; ++turn)
@@ -147,7 +147,7 @@ TEST(Databoard4002InARack, TwoCardsShareABusAndAnswerToTheirNumbers) {
     EXPECT_EQ(*host.session->peek("c1", "POSITION"), 0);
 }
 
-TEST(Databoard4002InARack, ACopyGoesTheSameWay) {
+TEST(Databoard4002InARack, ACopyContinuesIdentically) {
     Host host("card.c1 = \"databoard4002\"");
     host.out(1, 13);
     host.command('R', {0x00, 0x20});

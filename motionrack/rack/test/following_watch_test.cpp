@@ -61,13 +61,13 @@ TEST(FollowingError, AboveItsAlarmLimitStopsTheMachineAndInvalidatesThePosition)
     EXPECT_LT(to_seconds(outcome.time), 1.2);
 }
 
-TEST(FollowingError, IsNotLookedAtWhereItsLimitsAreZero) {
+TEST(FollowingError, IsNotMonitoredIfItsLimitsAreZero) {
     const JobOutcome outcome = run_with("following_error_alarm_mm = 0\n", {"X.encoder.broken_a@0.5s"});
     EXPECT_TRUE(outcome.ended) << outcome.ended.error().message;
     EXPECT_THAT(warnings_of(outcome), testing::Not(HasSubstr("following error")));
 }
 
-TEST(FollowingError, OfAnAxisWithoutAnEncoderIsNotKnown) {
+TEST(FollowingError, OfAnAxisWithoutAnEncoderIsUnknown) {
     const JobOutcome outcome = run_with("encoder_counts_per_rev = 0\n", {"X.motor.stall@1s"});
     EXPECT_TRUE(outcome.ended) << outcome.ended.error().message;
     EXPECT_FALSE(outcome.position_valid);
@@ -87,7 +87,7 @@ JobOutcome run_carriage(const std::string& keys, const std::vector<std::string>&
     return (*job)->run(nullptr, {});
 }
 
-TEST(FollowingError, OfAServoThatIsWellIsAFewMillimetresAtMost) {
+TEST(FollowingError, OfASoundServoIsAtMostAFewMillimetres) {
     const JobOutcome outcome = run_carriage("following_error_warning_mm = 4\n", {});
     EXPECT_TRUE(outcome.ended) << outcome.ended.error().message;
     EXPECT_THAT(warnings_of(outcome), testing::Not(HasSubstr("following error")));
@@ -121,7 +121,7 @@ TEST(FollowingError, HasLimitsThatFollowFromTheEncoder) {
     EXPECT_EQ(servo.axes[0].following_alarm(), 0.1 * servo.axes[0].max_velocity);
 }
 
-TEST(FollowingError, IsRefusedALimitThatCannotBe) {
+TEST(FollowingError, RejectsAnImpossibleLimit) {
     struct Bad {
         const char *keys, *words;
     };

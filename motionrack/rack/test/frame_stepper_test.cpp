@@ -19,7 +19,7 @@ scales = 6
 period_us = 250
 )";
 
-TEST(FrameStepper, GivesEveryFrameOfTheHost) {
+TEST(FrameStepper, ReturnsEveryFrameOfTheHost) {
     Rack rack(*read_rack_text(two_cards).config);
     const auto tap = FrameStepper::create(rack, "");
     ASSERT_TRUE(tap) << tap.error().text();
@@ -36,7 +36,7 @@ TEST(FrameStepper, GivesEveryFrameOfTheHost) {
     }
 }
 
-TEST(FrameStepper, GivesTheFramesOfACardThatListens) {
+TEST(FrameStepper, ReturnsTheFramesOfASlave) {
     Rack rack(*read_rack_text(two_cards).config);
     const auto tap = FrameStepper::create(rack, "scan");
     ASSERT_TRUE(tap) << tap.error().text();
@@ -70,7 +70,7 @@ TEST(FrameStepper, ContinuesWhileTheHostIsOff) {
     EXPECT_TRUE(sound(frame));
 }
 
-TEST(FrameStepper, NamesTheCardsThatThereAre) {
+TEST(FrameStepper, ListsTheAvailableCards) {
     Rack rack(*read_rack_text(two_cards).config);
     const auto wrong = FrameStepper::create(rack, "nobody");
     ASSERT_FALSE(wrong);

@@ -153,7 +153,7 @@ TEST(GratingBusInARack, AWrongListIsRefusedWithItsLocation) {
                 HasSubstr("the scales 5, 2, but the decoder has 4"));
 }
 
-TEST(GratingBusInARack, HostsMayWantOtherScalesAndContendForTheAddress) {
+TEST(GratingBusInARack, HostsWithDifferentAddressListsContendForTheAddress) {
     auto session = open(
         "[card.c1]\ntype = \"grating_bus\"\nrole = \"host\"\naddresses = \"1, 2\"\n"
         "[card.c2]\ntype = \"grating_bus\"\nrole = \"host\"\naddresses = \"2, 1\"\n");

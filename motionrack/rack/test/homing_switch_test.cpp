@@ -65,7 +65,7 @@ class HomeSwitch : public testing::TestWithParam<int> {
 };
 INSTANTIATE_TEST_SUITE_P(Types, HomeSwitch, testing::Values(1, 2, 3, 4));
 
-TEST_P(HomeSwitch, ThatBreaksOnTheWayOffItAndComesBackIsNotHome) {
+TEST_P(HomeSwitch, ThatBreaksDuringTheReleaseAndRecoversIsNotHome) {
     expect_refused(
         homed(axis_from(0), "X", GetParam(),
               {{"BACK_WAIT", 4, "home.stuck_open"}, {approach(), twice() ? 10 : 2, "home.stuck_open=0"}}),
@@ -75,25 +75,25 @@ TEST_P(HomeSwitch, ThatBreaksOnTheWayOffItAndComesBackIsNotHome) {
 class HomeSwitchComingTwice : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Types, HomeSwitchComingTwice, testing::Values(2, 4));
 
-TEST_P(HomeSwitchComingTwice, ThatBreaksAfterTheQuickApproachIsNotHome) {
+TEST_P(HomeSwitchComingTwice, ThatBreaksAfterTheSearchApproachIsNotHome) {
     expect_refused(homed(axis_from(7), "X", GetParam(),
                          {{"BACK_WAIT", 1, "home.stuck_open"}, {"SLOW_WAIT", 10, "home.stuck_open=0"}}),
                    "beyond the position at which it");
 }
 
-TEST_P(HomeSwitchComingTwice, ThatBreaksBeforeTheSlowApproachIsNotHome) {
+TEST_P(HomeSwitchComingTwice, ThatBreaksBeforeTheLatchApproachIsNotHome) {
     expect_refused(homed(axis_from(0), "X", GetParam(),
                          {{"SLOW_WAIT", 1, "home.stuck_open"}, {"SLOW_WAIT", 14, "home.stuck_open=0"}}),
                    "beyond the position at which it was released");
 }
 
-TEST_P(HomeSwitchComingTwice, ThatSticksOnTheWayOffItIsNotHome) {
+TEST_P(HomeSwitchComingTwice, ThatSticksDuringTheReleaseIsNotHome) {
     expect_refused(homed(axis_from(0), "X", GetParam(),
                          {{"BACK_WAIT", 4, "home.stuck_closed"}, {"BACK_WAIT", 20, "home.stuck_closed=0"}}),
                    "beyond the position at which it was released");
 }
 
-TEST_P(HomeSwitchComingTwice, ThatClosesOnTheSlowApproachIsNotHome) {
+TEST_P(HomeSwitchComingTwice, ThatClosesDuringTheLatchApproachIsNotHome) {
     expect_refused(homed(axis_from(0) + "backoff_mm = 1\n", "X", GetParam(), {{"SLOW_WAIT", 12, "home.stuck_closed"}}),
                    "before the position at which it was released");
     expect_refused(
@@ -140,7 +140,7 @@ std::string carriage_from(double start_mm) {
 class HomeReference : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Types, HomeReference, testing::Values(1, 2, 3, 4));
 
-TEST_P(HomeReference, ThatSticksOnTheWayOffItIsNotHome) {
+TEST_P(HomeReference, ThatSticksDuringTheReleaseIsNotHome) {
     expect_refused(
         homed(carriage_from(127), "board", GetParam(), {{"BACK", 1, "ref.broken"}, {"BACK", 8, "ref.broken=0"}}),
         "beyond the position at which it was released");

@@ -48,7 +48,7 @@ HomingOutcome homed(const std::string& text, const HomingSettings& settings = {}
     return home_axes(rack, settings);
 }
 
-TEST(RackHomes, AllAxesWithASwitchAtOnceAndTheirCountersAreTheMachine) {
+TEST(RackHomes, AllAxesWithASwitchTogetherAndSetsTheirCounters) {
     const HomingOutcome out = homed(two_axes);
     ASSERT_TRUE(out.ended) << out.ended.error().message;
     EXPECT_TRUE(out.all_homed());
@@ -64,7 +64,7 @@ TEST(RackHomes, AllAxesWithASwitchAtOnceAndTheirCountersAreTheMachine) {
     EXPECT_NEAR(out.seconds, x.outcome.took_s, 0.005);
 }
 
-TEST(RackHomes, ThePositionOfTheFileIsWhatHomeIsCalled) {
+TEST(RackHomes, UsesTheHomeOffsetOfTheFile) {
     const HomingOutcome out =
         homed(std::string(two_axes) +
               "[axis.Y.homing]\nhome_offset_mm = -3.5\nsearch_velocity_mm_s = 10\nlatch_velocity_mm_s = 0.25\n");
@@ -90,7 +90,7 @@ TEST(RackHomes, LowerSequenceNumbersGoFirst) {
     EXPECT_NEAR(out.seconds, out.axes[0].outcome.took_s + out.axes[1].outcome.took_s, 0.005);
 }
 
-TEST(RackHomes, AfterAFailureTheLaterOnesAreNotBegun) {
+TEST(RackHomes, StartsNoLaterSequenceAfterAFailure) {
     // The index is at the switch position, which method 4 rejects.
     std::string text = std::string(two_axes) + "[axis.Y.homing]\nsequence = 1\n";
     text.replace(text.find("home_mm = 2"), 11, "home_mm = 0");
@@ -103,7 +103,7 @@ TEST(RackHomes, AfterAFailureTheLaterOnesAreNotBegun) {
     EXPECT_THAT(homing_text(out), HasSubstr("not begun"));
 }
 
-TEST(RackHomes, RefusesWhatItCannotDo) {
+TEST(RackHomes, RejectsImpossibleRequests) {
     const auto message = [](const std::string& text, const HomingSettings& settings = {}) {
         const HomingOutcome out = homed(text, settings);
         EXPECT_FALSE(out.ended);
@@ -155,7 +155,7 @@ TEST(RackHomes, AProgramRunsAfterwardsOnTheSameCard) {
     EXPECT_TRUE(home_axes(rack, again).all_homed());
 }
 
-TEST(RackHomes, ToNoOtherIndexThanTheFirstTime) {
+TEST(RackHomes, ToTheIndexOfTheFirstHomingOnly) {
     Rack rack(config_of(two_axes));
     rack.start();
     SeenIndexes seen;
@@ -173,7 +173,7 @@ TEST(RackHomes, ToNoOtherIndexThanTheFirstTime) {
     EXPECT_EQ(seen[0], 4) << "a search that failed teaches nothing";
 }
 
-TEST(RackHomes, CallsTheIndexByItsWayBehindTheSwitch) {
+TEST(RackHomes, UsesTheDeclaredPositionOfTheIndex) {
     std::string text = two_axes;
     const auto place = text.find("home_offset_mm = 0");
     text.replace(place, 18, "index_after_mm = 2.1");  // not 2 mm, but within a quarter revolution
@@ -205,7 +205,7 @@ TEST(RackHomes, WarnsOfAnIndexPositionThatItsCardDoesNotCheck) {
     EXPECT_THAT(warnings, HasSubstr("index_after_mm of axis X is ignored"));
 }
 
-TEST(RackHomes, TheGroupContinuesWhereTheAxesStandAndTheAxesWhereTheGroupStands) {
+TEST(RackHomes, TheGroupStartsAtThePositionsOfTheAxesAndViceVersa) {
     Rack rack(config_of(two_axes));
     rack.start();
     ASSERT_TRUE(home_axes(rack, {}).all_homed());
@@ -233,7 +233,7 @@ TEST(RackHomes, AnAxisThatTheGroupNeverHadHasNoValidPosition) {
     EXPECT_FALSE(y->position_valid());
 }
 
-TEST(RackHomes, TextJsonAndPictureTellTheSame) {
+TEST(RackHomes, TextJsonAndPictureReportTheSameResults) {
     const HomingOutcome out = homed(two_axes);
     const std::string text = homing_text(out);
     EXPECT_THAT(text, HasSubstr("axis X  method 4, - direction"));

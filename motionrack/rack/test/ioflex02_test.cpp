@@ -56,7 +56,7 @@ struct Ioflex02Bench {
     int phase = 0;
 };
 
-TEST(Ioflex02InARack, CountsWhatItsLinesDoAndAnswersFromItsBaseAddress) {
+TEST(Ioflex02InARack, CountsItsLinesAndAnswersAtItsBaseAddress) {
     Ioflex02Bench bench;
     EXPECT_EQ(bench.read("SIGNATURE"), 0x4F49u);
     bench.turn(10);
@@ -128,7 +128,7 @@ TEST(Ioflex02InARack, AnAxisEncoderIsReadBesideTheCardThatMovesIt) {
     EXPECT_EQ(*rack.card("flex")->inspect("2.ILLEGAL_TRANSITIONS"), 0);
 }
 
-TEST(Ioflex02InARack, ItsLinesCanHaveFaultsThatOtherCardsDoNotSee) {
+TEST(Ioflex02InARack, FaultsOfItsLinesDoNotAffectOtherCards) {
     Rack rack(good(measured));
     JobSettings settings;
     settings.program = "G21 G90\nG1 X20 F3000\n";
@@ -171,7 +171,7 @@ TEST(Ioflex02InARack, ItsSixteenInputsHaveTwoNamesEach) {
     EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 16'000);
 }
 
-TEST(Ioflex02InARack, AnInputIsRecordedByTheNameThatWasAskedFor) {
+TEST(Ioflex02InARack, AnInputIsRecordedByTheRequestedName) {
     Ioflex02Bench bench;
     const auto file = std::filesystem::temp_directory_path() / "motionrack_ioflex02_names.vcd";
     const auto recorded = [&](const char* signals) {

@@ -44,7 +44,7 @@ struct BadWires {
     std::vector<std::string> words;
 };
 
-TEST(Links, RefusesWhatCannotBeObeyedBeforeAnythingMoves) {
+TEST(Links, RejectsImpossibleWiringBeforeAnythingMoves) {
     const std::vector<BadWires> cases = {
         {"X.step = \"m.xout0\"\n", {7, 3}, {"X.step cannot be driven by m.xout0", "m.xpp", "open"}},
         {"X.step = \"m.xpm\"\nX.dir = \"m.xpp\"\n", {7, 3}, {"X.step cannot be driven by m.xpm"}},
@@ -77,7 +77,7 @@ TEST(Links, AnAxisWithoutItsChannelOrCardIsAnExampleOfTheFirstOne) {
     EXPECT_THAT(all_texts(no_card.errors), HasSubstr("does not have"));
 }
 
-TEST(Links, OneChannelTurnsOneMotor) {
+TEST(Links, OneChannelDrivesOneMotor) {
     const RackReading reading =
         read_rack_text(rack_with(second_axis + "[wires]\nX.step = \"m.upp\"\nX.dir = \"m.upm\"\n"));
     ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors);
@@ -144,7 +144,7 @@ TEST(Rack, AJobRunsOverAnEightBitBus) {
     EXPECT_TRUE(outcome.position_valid);
 }
 
-TEST(Links, AnOpenStepInputLeavesTheMotorStandingAndTheJobReportsIt) {
+TEST(Links, AnOpenStepInputKeepsTheMotorAtStandstillAndTheJobReportsIt) {
     const Ended ended = run_wires("X.step = \"open\"\n", false);
     EXPECT_TRUE(ended.outcome.ended);
     const AxisOutcome& x = ended.outcome.axes[0];
@@ -162,7 +162,7 @@ TEST(Links, AnOpenStepInputStopsTheJobWhereTheFollowingErrorIsWatched) {
     EXPECT_THAT(ended.outcome.ended.error().message, HasSubstr("The following error of X was"));
 }
 
-TEST(Links, AnotherChannelsPulsesTurnTheMotor) {
+TEST(Links, ThePulsesOfAnotherChannelDriveTheMotor) {
     const Ended ended =
         run_wires("X.step = \"m.upp\"\nX.dir = \"m.upm\"\nA.step = \"m.xpp\"\nA.dir = \"m.xpm\"\n", false);
     EXPECT_TRUE(ended.outcome.ended);
@@ -172,7 +172,7 @@ TEST(Links, AnotherChannelsPulsesTurnTheMotor) {
     EXPECT_FALSE(ended.outcome.position_valid);
 }
 
-TEST(Links, CrossedTracksCountBackwardsAndOpenOnesNotAtAll) {
+TEST(Links, SwappedTracksCountBackwardsAndOpenOnesNotAtAll) {
     const Ended crossed = run_wires("m.xeca = \"X.enc_b\"\nm.xecb = \"X.enc_a\"\n");
     EXPECT_EQ(crossed.outcome.axes[0].encoder_counts, -8000);
     EXPECT_EQ(crossed.outcome.axes[0].actual_end, 10);
@@ -183,7 +183,7 @@ TEST(Links, CrossedTracksCountBackwardsAndOpenOnesNotAtAll) {
 }
 
 /// A comparison of the crossed encoder stops the drive at count -2000.
-TEST(Links, WatchesOnACrossedEncoderFireAtTheMirroredCount) {
+TEST(Links, WatchedRangesOfASwappedEncoderNotifyAtTheInvertedCount) {
     struct RecordingListener final : sim::PositionListener {
         void crossed(Instant) override { ++times; }
         void rate_changed(double, double rate, Instant) override { last_rate = rate; }

@@ -74,14 +74,14 @@ void expect_held_without_loss(const char* profile, const Path& path, double firs
     EXPECT_GT(to_seconds(held.outcome.time), to_seconds(undisturbed.outcome.time) + 4 * 0.1) << "it stood";
 }
 
-TEST_P(Lossless, AHoldBrakesAlongASpiralOfChords) {
+TEST_P(Lossless, AFeedHoldDeceleratesAlongASpiralOfChords) {
     for (const double chord : {0.2, 0.7}) {
         SCOPED_TRACE(chord);
         expect_held_without_loss(GetParam(), spiral(chord, 260), 2.1);
     }
 }
 
-TEST_P(Lossless, AHoldBrakesAlongCollinearLines) {
+TEST_P(Lossless, AFeedHoldDeceleratesAlongCollinearLines) {
     for (const double line : {0.5, 1.0, 10.0}) {
         SCOPED_TRACE(line);
         expect_held_without_loss(GetParam(), collinear(line, 230), 0.8);
@@ -95,13 +95,13 @@ void expect_undisturbed(const RackConfig& config, const Path& path, double secon
     EXPECT_LT(to_seconds(driven.outcome.time), seconds);
 }
 
-TEST_P(Lossless, AReliefInFineStepsGoesThrough) {
+TEST_P(Lossless, AReliefInFineStepsLosesNoPulse) {
     RackConfig config = router(GetParam());
     set_microsteps(config, 64);
     expect_undisturbed(config, relief(0.05, 60, 20'000), 5.5);
 }
 
-TEST_P(Lossless, ASpiralOnASlowBusGoesThrough) {
+TEST_P(Lossless, ASpiralOnASlowBusLosesNoPulse) {
     RackConfig config = router(GetParam());
     config.cards[0].mcx314.bus_access_ns = 1'000;
     expect_undisturbed(config, spiral(0.2, 200), 5.2);
@@ -115,7 +115,7 @@ TEST_P(Lossless, DrivesChordsOfMicrometresAsFastAsTheirCurve) {
     }
 }
 
-TEST_P(Lossless, AHostWithoutLatencyAndOneThatIsSlowGoThrough) {
+TEST_P(Lossless, AHostWithoutLatencyAndASlowOneLoseNoPulse) {
     for (const std::int64_t latency : {0, 400}) {
         SCOPED_TRACE(latency);
         RackConfig config = router(GetParam());
@@ -126,7 +126,7 @@ TEST_P(Lossless, AHostWithoutLatencyAndOneThatIsSlowGoThrough) {
 
 /// Short chords, of which the last one slows down for a corner behind which Z moves too, and a short line behind it for
 /// the next corner: there a pulse of the chip is more of the path than in front of it.
-TEST_P(Lossless, ShortLinesSlowDownInTimeForACornerAtWhichZMovesOn) {
+TEST_P(Lossless, ShortLinesDecelerateInTimeForACornerAtWhichZContinues) {
     RackConfig config = router(GetParam());
     set_microsteps(config, 64);
     Path path{"G21 G90 G64 P0.01\nG0 X150 Y100 Z75\nG1 F1247\n", 150, 100};
@@ -160,7 +160,7 @@ TEST_P(Lossless, AnArcDeceleratesInTimeFromTheRateOfADiagonalLine) {
     expect_lossless(drive_with(config, text, {}));
 }
 
-TEST_P(Lossless, AnAxisWithLessThanAPulseInEachMoveEndsWhereItShould) {
+TEST_P(Lossless, AnAxisWithLessThanAPulsePerMoveEndsAtItsTarget) {
     RackConfig config = router(GetParam());
     set_microsteps(config, 16);
     Path path{"G21 G90 G61\nG0 X150 Y100 Z75\nG1 F1200\n", 150, 100};
@@ -175,7 +175,7 @@ TEST_P(Lossless, AnAxisWithLessThanAPulseInEachMoveEndsWhereItShould) {
 }
 
 /// A ramp in chords or quarter circles, in each of which Z has less than half a pulse.
-TEST_P(Lossless, AnAxisWithLessThanAPulseInEachChordStaysOnTheWay) {
+TEST_P(Lossless, AnAxisWithLessThanAPulsePerChordStaysOnThePath) {
     const auto ramp = [](double angle, double rise, bool arcs) {
         Path out{"G21 G90 G64 P0.01\nG0 X170 Y100 Z40\nG1 F1200\n"};
         for (int i = 1; i <= static_cast<int>(21 / angle); ++i) {
@@ -195,7 +195,7 @@ TEST_P(Lossless, AnAxisWithLessThanAPulseInEachChordStaysOnTheWay) {
 }
 
 /// The end of its short drives may coincide with the instant at which the queue has room.
-TEST_P(Lossless, AFourthAxisThatOftenStandsHoldsNothingUp) {
+TEST_P(Lossless, AFourthAxisThatOftenStopsDelaysNothing) {
     Path path{"G21 G90 G64 P0.01 F1051\nG0 X170 Y100 Z40\n", 0, 0};
     for (int i = 1; i < 153; ++i) {
         path.x = 150 + 20 * std::cos(i * 0.005);
@@ -208,7 +208,7 @@ TEST_P(Lossless, AFourthAxisThatOftenStandsHoldsNothingUp) {
     expect_end(driven, path.x, path.y);
 }
 
-TEST_P(Lossless, AHoldOnAWayBackLeavesNothingOfItOut) {
+TEST_P(Lossless, AFeedHoldDuringAReversalSkipsNothing) {
     const Path path{"G21 G90 G61\nG0 X10 Y10\nG1 F3000\nX20.3 Y14.7\nX8.1 Y9.133\nX21 Y15.02\nX11 Y10.457\nM2\n", 11,
                     10.457};
     const RackConfig config = router(GetParam());
@@ -225,7 +225,7 @@ TEST_P(Lossless, AHoldOnAWayBackLeavesNothingOfItOut) {
     }
 }
 
-TEST(Host, ThatIsTooLateIsReportedWithPositionAndDelay) {
+TEST(Host, ADelayedHostIsReportedWithPositionAndDelay) {
     bool late = false;
     const Path path = spiral(0.2, 200);
     RackConfig config = router();
@@ -282,7 +282,7 @@ TEST_P(Lossless, ALateHostContinuesAtTheProgrammedFeed) {
     }
 }
 
-TEST(Host, PollsDeceleratingAxesEveryFewMicrosecondsAndNotAllTheTime) {
+TEST(Host, PollsAxesEveryFewMicrosecondsOnlyDuringDeceleration) {
     RackConfig config = router();
     config.cards[0].mcx314.bus_access_ns = 60;
     constexpr double asked = 0.5;

@@ -100,7 +100,7 @@ TEST(MarkingLine, ASquareOnTheMovingPartIsASquareOnlyWithCorrection) {
     }
 }
 
-TEST(MarkingLine, ShowsTheMarksWhileItRunsWithoutAnEffect) {
+TEST(MarkingLine, ReadingTheMarksDuringARunHasNoEffect) {
     Line looked, other;
     for (Line* bench : {&looked, &other}) {
         bench->square(5184.0 / 1000);
@@ -120,7 +120,7 @@ TEST(MarkingLine, ShowsTheMarksWhileItRunsWithoutAnEffect) {
     EXPECT_EQ(looked.session->rack().kernel().trace_hash(), other.session->rack().kernel().trace_hash());
 }
 
-TEST(MarkingLine, ACopyInTheMiddleOfAMarkContinuesAlike) {
+TEST(MarkingLine, ACopyDuringAMarkContinuesIdentically) {
     Line bench(std::string(marking_line) +
                "[scanner.head.galvo]\nideal_mirrors = false\ndead_time_us = 100\n[scanner.head.laser]\non_delay_us = "
                "35\noff_delay_us = 12\n");
@@ -138,7 +138,7 @@ TEST(MarkingLine, ACopyInTheMiddleOfAMarkContinuesAlike) {
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].at.x, b[i].at.x);
 }
 
-TEST(MarkingLine, ASnapshotTakesMarksBack) {
+TEST(MarkingLine, ARestoredSnapshotRemovesLaterMarks) {
     Line bench;
     bench.square(0);
     ASSERT_TRUE(bench.engine().execute_list(1));
@@ -182,7 +182,7 @@ TEST(MarkingLine, TheVelocityCanBeChangedAndTheEncoderBroken) {
     EXPECT_THAT(bench.session->part("head.height").error().message, HasSubstr("marked_mm"));
 }
 
-TEST(MarkingLine, WhatFollowsFromTheMachineCannotBeSet) {
+TEST(MarkingLine, DerivedQuantitiesCannotBeSet) {
     Line bench;
     for (const char* name : {"head.light", "scan.mark_speed_bits_ms"}) {
         const Result<void> set = bench.session->set_part(name, 1);
@@ -196,7 +196,7 @@ TEST(MarkingLine, WhatFollowsFromTheMachineCannotBeSet) {
     EXPECT_THAT(bench.session->set_part("tail.light", 1).error().message, HasSubstr("Unknown quantity 'tail.light'"));
 }
 
-TEST(MarkingLine, ASenderGivesItsWordsLateAndCanFallSilent) {
+TEST(MarkingLine, ASenderDelaysItsWordsAndCanStop) {
     Line bench(std::string(marking_line) + "[belt.line.sender]\nbits_per_mm = 1000\nperiod_us = 100\ndelay_us = 350\n");
     bench.ms(100);
     // The last reading with a complete word: at 99.6 ms, 9.96 mm.
@@ -211,7 +211,7 @@ TEST(MarkingLine, ASenderGivesItsWordsLateAndCanFallSilent) {
     EXPECT_EQ(bench.part("line.word"), 11960);
 }
 
-TEST(MarkingLine, EqualWordsCountAsWordsToo) {
+TEST(MarkingLine, RepeatedEqualWordsAreReceived) {
     Line bench(std::string(marking_line) + "[belt.line.sender]\nbits_per_mm = 1000\nperiod_us = 100\n");
     ASSERT_TRUE(bench.session->set_part("line.speed_mm_s", 0));
     ASSERT_TRUE(bench.session->set_wire("line.mcbsp", 77)) << "the line between sender and card, driven by hand";
@@ -261,7 +261,7 @@ TEST(MarkingLine, ATableTurnsThePartAndItsEncoderCountsDegrees) {
         << "the spot stands still and draws a circle on the part";
 }
 
-TEST(MarkingLine, ProfilesAndWiresSayOtherwiseWhereTheFileDoes) {
+TEST(MarkingLine, TheFileOverridesDefaultProfilesAndWires) {
     Line bench(std::string(marking_line) +
                "[wires]\n\"scan.enc0_a\" = \"line.enc_b\"\n\"scan.enc0_b\" = \"line.enc_a\"\n");
     bench.ms(10);
@@ -274,7 +274,7 @@ TEST(MarkingLine, ProfilesAndWiresSayOtherwiseWhereTheFileDoes) {
     EXPECT_NEAR(static_cast<double>(ramp.peek("ENCODER0")), -1500, 1);
 }
 
-TEST(MarkingLine, WhatDoesNotFitIsReportedWithItsLocation) {
+TEST(MarkingLine, InconsistentSettingsAreReportedWithTheirLocation) {
     const auto refused = [](const std::string& text) {
         const RackReading reading =
             read_rack_text("[card.scan]\ntype = \"rtc5\"\n[card.m]\ntype = \"mcx314\"\n" + text);

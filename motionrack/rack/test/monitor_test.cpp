@@ -70,7 +70,7 @@ Watch corner(Duration cut) {
                  {{side - cut, each_pulse, 1}, {2 * side - cut, each_pulse, 0}});
 }
 
-TEST(Monitor, HoldsTheMachineAgainstTheProgramAndNotThePlan) {
+TEST(Monitor, ComparesTheMachineWithTheProgramAndNotWithThePlan) {
     const Duration side = each_pulse * 6'400, cut = milliseconds(32);  // 0.5 mm
     Watch watch = corner(cut);
     watch.line(10, 0, 3);
@@ -93,7 +93,7 @@ TEST(Monitor, HoldsTheMachineAgainstTheProgramAndNotThePlan) {
     EXPECT_EQ(breach.times, 1) << "once left, once told";
 }
 
-TEST(Monitor, LetsCornersBeCutWithinTheirTolerance) {
+TEST(Monitor, AcceptsCornersWithinTheirTolerance) {
     Watch watch = corner(milliseconds(6));  // 0.094 mm, thus 0.047 mm from both sides
     watch.line(10, 0, 3);
     watch.line(10, 10, 4);
@@ -103,7 +103,7 @@ TEST(Monitor, LetsCornersBeCutWithinTheirTolerance) {
     EXPECT_TRUE(monitor.breaches().empty());
 }
 
-TEST(Monitor, HoldsOneLineForSeveralMovesAgainstEachOfThem) {
+TEST(Monitor, ComparesAMergedLineWithEachOfItsMoves) {
     const Duration side = each_pulse * 6'400;
     Watch watch({{Instant{}, each_pulse, 1}, {side, each_pulse, 0}}, {});
     watch.line(5, 0.2, 7);

@@ -32,7 +32,7 @@ double top_of_pieces(const std::function<double(double)>& velocity, double piece
     return top.hz();
 }
 
-TEST(PeakVelocity, OfOneLongPieceIsItsRateExactly) {
+TEST(PeakVelocity, OfOneLongSegmentIsExactlyItsRate) {
     PeakVelocity top(jump_hz, milliseconds(1));
     top.changed(0, 1'280, milliseconds(10));
     top.changed(1'280, 0, milliseconds(1'010));
@@ -49,7 +49,7 @@ TEST(PeakVelocity, OfARampIsThatOfItsLastInstant) {
     EXPECT_NEAR(top.hz(), 30'000, 30'000.0 / 700);
 }
 
-TEST(PeakVelocity, IsNotThatOfAPieceOfAFewPulses) {
+TEST(PeakVelocity, IgnoresASegmentOfAFewPulses) {
     PeakVelocity top(jump_hz, milliseconds(1));
     top.changed(0, 10'000, Instant{} + milliseconds(1));
     top.changed(10'000, 12'500, Instant{} + milliseconds(501));  // 5 pulses in the time of 4
@@ -59,7 +59,7 @@ TEST(PeakVelocity, IsNotThatOfAPieceOfAFewPulses) {
     EXPECT_EQ(top.hz(), 10'000);
 }
 
-TEST(PeakVelocity, OfShortPiecesIsTheVelocityThatTheyMakeTogether) {
+TEST(PeakVelocity, OfShortSegmentsIsTheirMeanVelocity) {
     for (const double piece : {0.0002, 0.0007, 0.003})
         for (const double truth : {700.0, 9'321.0, 61'234.5}) {
             SCOPED_TRACE(testing::Message() << piece << " s, " << truth << " Hz");
@@ -69,7 +69,7 @@ TEST(PeakVelocity, OfShortPiecesIsTheVelocityThatTheyMakeTogether) {
         }
 }
 
-TEST(PeakVelocity, ThatLastsForMillisecondsOnlyIsFoundInShortPieces) {
+TEST(PeakVelocity, OfAFewMillisecondsIsFoundInShortSegments) {
     const auto bump = [](double t) { return t > 0.5 && t < 0.508 ? 60'000.0 : 20'000.0; };
     const double top = top_of_pieces(bump, 0.0002, 1);
     EXPECT_LE(top, 60'000.0 * 1.0005);

@@ -56,7 +56,7 @@ double whole(double mm) {
     return std::floor(mm * pulses_per_mm + 0.5) / pulses_per_mm;
 }
 
-TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
+TEST(Probing, LatchesTheSamePulseAtEveryFeed) {
     for (const int feed : {2, 30, 60, 150, 600, 1800, 3000, 6000}) {
         const std::string program =
             "G21 G90\nG38.2 X" + std::string(feed < 10 ? "1" : "250") + " F" + std::to_string(feed) + "\nM2\n";
@@ -73,7 +73,7 @@ TEST(Probing, CatchesTheSamePulseAtEveryFeed) {
     }
 }
 
-TEST(Probing, CatchesAllAxesOfASlantedMoveAtOneInstant) {
+TEST(Probing, LatchesAllAxesOfASlantedMoveAtTheSameInstant) {
     const JobOutcome out =
         run_probe(rack_text("x_min_mm = 41.7\ny_min_mm = 0\ny_max_mm = 100\nz_min_mm = 0\nz_max_mm = 75\n"),
                   "G21 G90\nG1 Z70 F3000\nG38.2 X90 Y45 Z60 F2400\nM2\n");
@@ -130,11 +130,11 @@ void expect_measured(const JobOutcome& out) {
     EXPECT_GT(out.run.probes.size(), 10u);
 }
 
-TEST(Probing, LoopsSubsAndConditionsGoByWhatTheProbeDid) {
+TEST(Probing, LoopsSubsAndConditionsDependOnTheProbeResult) {
     expect_measured(run_probe(rack_text("z_max_mm = 12.34\n"), measures));
 }
 
-TEST(Probing, AndSoTheyDoWhereTheProgramIsHeldOnItsWay) {
+TEST(Probing, LoopsSubsAndConditionsDependOnTheProbeResultAfterAFeedHold) {
     Rack rack(good(rack_text("z_max_mm = 12.34\n")));
     auto orders = CommandSchedule::create(
         rack, {{milliseconds(1000), "hold", "hold@1"}, {milliseconds(2000), "resume", "resume@2"}});
@@ -148,7 +148,7 @@ TEST(Probing, AndSoTheyDoWhereTheProgramIsHeldOnItsWay) {
     expect_measured(job.run());
 }
 
-TEST(Probing, AThinPlateIsCaughtAlsoWhereTheAxisRunsThroughIt) {
+TEST(Probing, AThinPlateIsDetectedEvenIfTheAxisOvershootsIt) {
     const JobOutcome out =
         run_probe(rack_text("x_min_mm = 100\nx_max_mm = 100.01\n"), "G21 G90\nG38.2 X250 F6000\nG1 X120 F600\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
@@ -156,7 +156,7 @@ TEST(Probing, AThinPlateIsCaughtAlsoWhereTheAxisRunsThroughIt) {
     EXPECT_EQ(out.axes[0].actual_end, 120);
 }
 
-TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
+TEST(Probing, WithoutContactTheMoveReachesItsEndAndOnlyG38Point2AndPoint4AreErrors) {
     const std::string rack = rack_text("x_min_mm = 200\n");
     const JobOutcome may = run_probe(rack, "G21 G90\nG38.3 X50 F600\nG1 X60\n");
     ASSERT_TRUE(may.ended) << may.ended.error().message;
@@ -171,7 +171,7 @@ TEST(Probing, WithoutContactTheMoveGoesToItsEndAndOnlySomeAreErrors) {
     EXPECT_EQ(must.axes[0].actual_end, 50);
 }
 
-TEST(Probing, IsRefusedWhereTheProbeTouchesAlreadyOrDoesNotYet) {
+TEST(Probing, IsRejectedIfTheProbeIsAlreadyInTheTargetState) {
     const JobOutcome touches = run_probe(rack_text("x_min_mm = 10\n"), "G21 G90\nG0 X20\nG38.2 X50 F600\n");
     ASSERT_FALSE(touches.ended);
     EXPECT_THAT(touches.ended.error().message, HasSubstr("is closed before the move"));
@@ -181,7 +181,7 @@ TEST(Probing, IsRefusedWhereTheProbeTouchesAlreadyOrDoesNotYet) {
     EXPECT_THAT(free.ended.error().message, HasSubstr("is open before the move"));
 }
 
-TEST(Probing, GoesWithLimitedJerkToo) {
+TEST(Probing, WorksWithLimitedJerk) {
     const JobOutcome out = run_probe(rack_text("x_min_mm = 187.123\n", "[controller]\nprofile = \"jerk_limited\"\n"),
                                      "G21 G90\nG1 X20 Y20 F3000\nG38.2 X250 F3000\nG91 G1 Y-5\nX-10\nM2\n");
     ASSERT_TRUE(out.ended) << out.ended.error().message;
@@ -258,7 +258,7 @@ class ProbingByLines : public testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(With, ProbingByLines, testing::Values("trapezoid", "jerk_limited"),
                          [](const auto& each) { return std::string(each.param); });
 
-TEST_P(ProbingByLines, TheLineAfterBeginsWhereTheMachineStands) {
+TEST_P(ProbingByLines, TheNextLineStartsAtTheStopPosition) {
     Fed fed(config("x_min_mm = 187.123\n"));
     fed.drive({"G21 G90", "G1 X10 F3000", "G38.2 X250", "G91 G1 X-2", "X-3", "G90 X20"});
     ASSERT_TRUE(fed.state) << fed.state.error().message;
@@ -270,7 +270,7 @@ TEST_P(ProbingByLines, TheLineAfterBeginsWhereTheMachineStands) {
     EXPECT_EQ(fed.x(), 20);
 }
 
-TEST_P(ProbingByLines, AMissIsAnErrorOrNone) {
+TEST_P(ProbingByLines, AMissIsAnErrorOfSomeCodesOnly) {
     Fed fed(config("x_min_mm = 200\n"));
     fed.drive({"G21 G90", "G38.3 X50 F3000", "G1 X60"});
     ASSERT_TRUE(fed.state);
@@ -289,7 +289,7 @@ TEST_P(ProbingByLines, AMissIsAnErrorOrNone) {
     EXPECT_EQ(fed.x(), 20);
 }
 
-TEST_P(ProbingByLines, AStopEndsItAndAHoldWaitsForItsEnd) {
+TEST_P(ProbingByLines, AStopEndsItAndAFeedHoldWaitsForItsEnd) {
     Fed stopped(config("x_min_mm = 200\n"));
     bool done = false;
     stopped.on_slice = [&] {

@@ -43,7 +43,7 @@ ProgramPart part_of(std::int64_t first, std::int64_t last = 1'000'000, double re
     return {first, last, first, reach_mm};
 }
 
-TEST(ProgrammedPath, KnowsHowFarACornerWasCut) {
+TEST(ProgrammedPath, MeasuresTheDeviationAtACorner) {
     Written program({0, 0});
     program.line(10, 0);
     program.line(10, 10);
@@ -65,7 +65,7 @@ TEST(ProgrammedPath, UsesTheToleranceOfTheMoveThatAllowsThePosition) {
     EXPECT_EQ(program.path.distance(part_of(1), 9.8, 5, 0).tolerance_mm, 0) << "G61";
 }
 
-TEST(ProgrammedPath, ComparesOnlyWithTheMovesWhereTheMachineIs) {
+TEST(ProgrammedPath, ComparesOnlyWithMovesNearTheMachine) {
     Written program({0, 0});
     for (int i = 1; i <= 40; ++i) program.line(i, i % 2 == 0 ? 0 : 1);
     program.line(40, 50);
@@ -81,7 +81,7 @@ TEST(ProgrammedPath, ComparesOnlyWithTheMovesWhereTheMachineIs) {
         << "in a dwell, the end of the move before";
 }
 
-TEST(ProgrammedPath, ComparesNoFartherThanTheMachineCanBe) {
+TEST(ProgrammedPath, ComparesNoFartherThanTheMachineCanHaveMoved) {
     Written program({0, 0});
     program.line(10, 0);
     program.line(10, 30);
@@ -117,7 +117,7 @@ TEST(ProgrammedPath, FindsTheNearestOfManyShortMoves) {
     }
 }
 
-TEST(ProgrammedPath, WithoutMovesIsNowhereLeft) {
+TEST(ProgrammedPath, WithoutMovesHasNoDeviation) {
     EXPECT_EQ(ProgrammedPath().distance(part_of(0), 1, 2, 3).mm, 0);
 }
 

@@ -62,14 +62,14 @@ TEST_F(RegisterViews, ShowCountersOfEachAxis) {
     EXPECT_THAT(view_text(seen, false), HasSubstr("LP   X  -30 "));
 }
 
-TEST_F(RegisterViews, ReadWhatClearsOnlyWhereThatIsAsked) {
+TEST_F(RegisterViews, ReadClearingRegistersOnlyOnRequest) {
     EXPECT_THAT(view_text(view(false), true), Not(HasSubstr("RR3")));
     EXPECT_THAT(view_text(view(true), false), HasSubstr("DEND   1 "));
     EXPECT_THAT(view_text(view(true), false), Not(HasSubstr("DEND")));
     EXPECT_THAT(view_text(view(true), true), HasSubstr("DEND   0 "));
 }
 
-TEST_F(RegisterViews, AreReadByProgramsAsJson) {
+TEST_F(RegisterViews, AreAvailableAsJson) {
     const auto json = nlohmann::json::parse(view_json(view(true)));
     int with_end = 0;
     for (const auto& reg : json["registers"])

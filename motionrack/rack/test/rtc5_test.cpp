@@ -105,7 +105,7 @@ TEST(Rtc5InARack, HasNoBusAndReportsItsInterfaces) {
     EXPECT_THAT(bench.session->part("c1.height").error().message, HasSubstr("mark_speed_bits_ms"));
 }
 
-TEST(Rtc5InARack, ACopyContinuesAlikeWithItsTablesAndRecordings) {
+TEST(Rtc5InARack, ACopyContinuesIdenticallyWithItsTablesAndRecordings) {
     Rtc5Bench bench;
     bench.begin();
     bench.put(Op::set_trigger, {1, 7, 8});

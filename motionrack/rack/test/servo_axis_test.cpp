@@ -51,7 +51,7 @@ TEST(ServoAxis, MovesToPositionsInMmAndReportsItsPosition) {
     EXPECT_TRUE(m.axis->position_valid());
 }
 
-TEST(ServoAxis, ASlowMoveIsSlowAndADistanceNeedsNoValidPosition) {
+TEST(ServoAxis, MovesAtTheRequestedVelocityAndByADistanceWithoutAValidPosition) {
     Machine m;
     EXPECT_FALSE(m.axis->position_valid());
     ASSERT_TRUE(m.axis->move_by(50, 20));
@@ -61,7 +61,7 @@ TEST(ServoAxis, ASlowMoveIsSlowAndADistanceNeedsNoValidPosition) {
     EXPECT_NEAR(m.mm(), 150, 0.3);
 }
 
-TEST(ServoAxis, RefusesWithTheNumbersAndMovesNothing) {
+TEST(ServoAxis, RejectsMovesWithValueAndLimitAndMovesNothing) {
     Machine m;
     const auto refused = [&](const Result<void>& done, const char* why) {
         ASSERT_FALSE(done);
@@ -142,7 +142,7 @@ TEST(ServoAxis, AStopDeceleratesAndAStopAtOnceIsShorterAndBothKeepThePosition) {
     EXPECT_NEAR(way[1], 500.0 * 500 / 2 / 5050, 2) << "at the amplifier's current limit";
 }
 
-TEST(ServoAxis, TheEndStopEndsAMoveAndTheWayBackIsFree) {
+TEST(ServoAxis, TheEndStopEndsAMoveAndAllowsTheOtherDirection) {
     Machine m;  // its position is invalid, so nothing else keeps it within its travel
     ASSERT_TRUE(m.axis->move_by(3'500, 300));
     const auto moved = m.axis->wait(whole_seconds(30));
@@ -208,7 +208,7 @@ TEST(ServoAxis, TheWatchdogsResetInvalidatesThePosition) {
     ASSERT_TRUE(inject_fault(m.rack, "watchdog.hang=0", "board"));
 }
 
-TEST(ServoAxis, AHeldAxisIsBroughtBackAndAFreeOneIsNot) {
+TEST(ServoAxis, ALockedAxisReturnsAfterAPushAndAnUnlockedOneDoesNot) {
     for (const bool held : {true, false}) {
         Machine m(carriage(held ? "position_window_mm = 0.25\n" : ""));
         m.here_is(100);
@@ -225,7 +225,7 @@ TEST(ServoAxis, AHeldAxisIsBroughtBackAndAFreeOneIsNot) {
     }
 }
 
-TEST(ServoAxis, ItsVoltageItsCamAndItsServosFaultsAreThere) {
+TEST(ServoAxis, HasQuantitiesOfVoltageAndCamAndFaultsOfItsServo) {
     Machine m;
     m.here_is(100);
     ASSERT_TRUE(m.axis->move_to(129, 50));
@@ -254,7 +254,7 @@ TEST(ServoAxis, ItsVoltageItsCamAndItsServosFaultsAreThere) {
     EXPECT_THAT(m.context.force("X.drive", 40).error().message, HasSubstr("-15 .. 15 V"));
 }
 
-TEST(ServoAxis, AllWaysOfHomingFindTheCamOrTheIndexUnderIt) {
+TEST(ServoAxis, AllHomingMethodsFindTheCamOrTheIndexUnderIt) {
     for (const bool plus : {false, true})
         for (int type = 1; type <= 4; ++type) {
             SCOPED_TRACE(fmt::format("type {} {}", type, plus ? "plus" : "minus"));

@@ -25,7 +25,7 @@ JobOutcome run(const std::string& rack_text, const std::string& program, RackCon
     return job.run();
 }
 
-TEST(ServoProgram, RunsLegByLegAndEveryCountIsThere) {
+TEST(ServoProgram, RunsMoveByMoveAndLosesNoCount) {
     RackConfig config;
     const std::string text = carriage("position_window_mm = 0.25\n");
     const JobOutcome out = run(text, "G21 G90\nG0 X2560\nG4 P1\nG1 X1280 F12000\nG4 P0.5\nG1 X0 F6000\nM2\n", &config);

@@ -65,7 +65,7 @@ TEST(StageSections, AreReadWithTheirDefaults) {
     EXPECT_FALSE(reading.config->stages[1].servo);
 }
 
-TEST(StageSections, ReportSettingsThatDoNotFit) {
+TEST(StageSections, ReportInconsistentSettings) {
     const std::string stage = cards + "[stage.mask]\ncard = \"second\"\ninput = 2\n";
     const std::pair<std::string, std::string> cases[] = {
         {cards + "[stage.host]\ncard = \"host\"\ninput = 0\n", "'host' cannot be a stage's name"},
@@ -200,7 +200,7 @@ TEST(RunningStages, NoFramesForTwoPeriodsOpenTheLoops) {
     EXPECT_EQ(r.get("mask.drive_v"), 0);
 }
 
-TEST(RunningStages, ASnapshotContinuesAsTheFirstTime) {
+TEST(RunningStages, ARestoredSnapshotContinuesIdentically) {
     Running r;
     r.run(0.1234);
     const sim::Snapshot snapshot = r.rack.kernel().snapshot();

@@ -57,7 +57,7 @@ TEST(LatchedStop, InADwellEndsTheProgramAlsoWhereTheButtonIsReleasedBeforeItsEnd
     EXPECT_THAT(ran.error(), HasSubstr("The positions are kept."));
 }
 
-TEST(LatchedStop, InADwellIsSeenHoweverShortTheButtonIsPressed) {
+TEST(LatchedStop, InADwellIsDetectedHoweverShortlyTheButtonIsPressed) {
     expect_stopped(run_stopped(stop_axes, dwelling, {"estop=0@1s", "estop=1@1.00001s"}), 20, "emergency stop");
 }
 
@@ -92,7 +92,7 @@ TEST(LatchedStop, BetweenHoldAndResumeOfAJerkLimitedMachineEndsTheProgram) {
                    "emergency stop");
 }
 
-TEST(LatchedStop, OfADriveAlarmBrakesAllAxesAlongThePath) {
+TEST(LatchedStop, OfADriveAlarmDeceleratesAllAxesOnThePath) {
     const StoppedRun ran = run_stopped(stop_axes, "G21 G90 F1200\nG1 X80 Y70\nM2\n", {"m.yalarm=0@1s"});
     ASSERT_FALSE(ran.outcome.ended);
     EXPECT_THAT(ran.error(), HasSubstr("The drive of Y reported an alarm at 1.000 s"));
@@ -142,7 +142,7 @@ TEST(LatchedStop, WithoutARampDropsThePositionOnlyOfAxesThatWereFasterThanTheyCa
     EXPECT_TRUE(slow.outcome.position_valid) << "1 mm/s is below its velocity step: it stops within a step";
 }
 
-TEST(LatchedStop, LeavesAProgramAloneWhereASwitchBouncesBehindTheAxis) {
+TEST(LatchedStop, DoesNotEndAProgramIfASwitchBouncesBehindTheAxis) {
     std::string on_its_switch = stop_axes;
     on_its_switch.replace(on_its_switch.find("initial_position_mm = 10"), 24,
                           "min_limit_mm = -6\ninitial_position_mm = -5.5");
@@ -152,7 +152,7 @@ TEST(LatchedStop, LeavesAProgramAloneWhereASwitchBouncesBehindTheAxis) {
     EXPECT_EQ(ran.x(), 20) << "the way back stays free";
 }
 
-TEST(LatchedStop, OfALimitSwitchThatBecomesActiveBehindTheAxisBlamesTheWiring) {
+TEST(LatchedStop, OfALimitSwitchActiveBehindTheAxisReportsAWiringError) {
     const StoppedRun ran =
         run_stopped(stop_axes, "G21 G90 F1200\nG1 X80\nM2\n", {"X.limit_minus=0@1s", "X.limit_minus=1@1.2s"});
     ASSERT_FALSE(ran.outcome.ended);
@@ -161,7 +161,7 @@ TEST(LatchedStop, OfALimitSwitchThatBecomesActiveBehindTheAxisBlamesTheWiring) {
     EXPECT_LT(ran.x(), 32);
 }
 
-TEST(LatchedStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithARamp) {
+TEST(LatchedStop, AtALimitSwitchKeepsThePositionOnlyOfAxesDeceleratedWithARamp) {
     const std::string fast = "G21 G90\nG1 X200 F6000\nM2\n";
     const StoppedRun one_piece = run_stopped(stop_axes, fast, {"X.limit_plus=0@1s"});
     ASSERT_FALSE(one_piece.outcome.ended);
@@ -179,7 +179,7 @@ TEST(LatchedStop, AtALimitSwitchKeepsThePositionOnlyOfAxesThatTheCardBrakesWithA
 }
 
 /// While the chip decelerates, moves queued behind the line must not change the acceleration.
-TEST(LatchedStop, AtALimitSwitchBrakesAsTheLimitsOfTheMovingAxisAllow) {
+TEST(LatchedStop, AtALimitSwitchDeceleratesAsTheLimitsOfTheMovingAxisAllow) {
     std::string slow_y = stop_axes;
     slow_y.replace(slow_y.find("channel = \"y\""), 13,
                    "channel = \"y\"\nmax_accel_mm_s2 = 500\nmax_velocity_mm_s = 50");

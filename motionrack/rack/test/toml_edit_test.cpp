@@ -41,7 +41,7 @@ TEST(TomlEdit, KeepsTextsOfAllKinds) {
     EXPECT_EQ(text_of_toml(*parse_toml(text_of_toml(root), "")), text_of_toml(root));
 }
 
-TEST(TomlEdit, PutsValuesOverOthersAndMakesTables) {
+TEST(TomlEdit, OverwritesValuesAndCreatesTables) {
     TomlNode root = *parse_toml("[axis.X]\nmax_limit_mm = 3\ncard = \"m\"\n", "");
     EXPECT_TRUE(put_value(root, toml_path("axis.X.max_limit_mm"), number(5)));
     EXPECT_TRUE(put_value(root, toml_path("axis.Y.servo.time_constant_ms"), number(2.5)));
@@ -54,7 +54,7 @@ TEST(TomlEdit, PutsValuesOverOthersAndMakesTables) {
     EXPECT_EQ(text_of_toml(root), before);
 }
 
-TEST(TomlEdit, TakesNamesApart) {
+TEST(TomlEdit, SplitsDottedNames) {
     using Path = std::vector<std::string>;
     EXPECT_EQ(toml_path("axis.X.max_limit_mm"), (Path{"axis", "X", "max_limit_mm"}));
     EXPECT_EQ(toml_path("wires.\"m.xin1\""), (Path{"wires", "m.xin1"}));
