@@ -199,7 +199,7 @@ RC_GTEST_PROP(AxisMechanics, ASwitchTogglesExactlyWhereThePositionPassesItsPosit
 
 // ---- Step loss
 
-TEST(AxisMechanics, AMotorStartedTooFastStandsAndLocksAMultipleOfFourStepsLater) {
+TEST(AxisMechanics, AMotorStartedTooFastStallsAndLocksAMultipleOfFourStepsLater) {
     AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 2000;
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(100), microseconds(1000), +1}});
@@ -217,7 +217,7 @@ TEST(AxisMechanics, AMotorStartedTooFastStandsAndLocksAMultipleOfFourStepsLater)
     EXPECT_EQ(w.kernel.conditions()[1].at, milliseconds(100));
 }
 
-TEST(AxisMechanics, AMotorStoppedAbruptlyRunsOnByWholeElectricalCycles) {
+TEST(AxisMechanics, AMotorStoppedAbruptlyOvershootsByWholeElectricalCycles) {
     AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 2000;
     // 0 -> 2000 -> 4000 -> 0 Hz: the last is a jump of twice the start/stop rate.
@@ -275,7 +275,7 @@ TEST(AxisMechanics, AMotorFollowsARampToTheVelocityAtWhichItStops) {
     EXPECT_TRUE(conditions(w.kernel).empty());
 }
 
-TEST(AxisMechanics, AMotorDrivenFasterThanItPullsStalls) {
+TEST(AxisMechanics, AMotorAboveItsPullOutFrequencyStalls) {
     AxisMechanicsSettings s = plain();
     s.motor.pull_out_hz = 15'000;
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1},
@@ -322,7 +322,7 @@ TEST(AxisMechanics, FaultsStallPushAndLose) {
     EXPECT_FALSE(w.machine.fault("push", std::numeric_limits<double>::quiet_NaN(), w.kernel.now()));
 }
 
-TEST(AxisMechanics, StopsAtTheEndOfTravelAndComesBackFromIt) {
+TEST(AxisMechanics, StopsAtTheEndOfTravelAndMovesAwayFromIt) {
     AxisMechanicsSettings s = plain();
     s.axle.end_plus = 1.0;  // 640 pulses
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(100), microseconds(100), -1}});
@@ -351,7 +351,7 @@ TEST(AxisMechanics, ConditionsAreSentencesWithTheirNumbers) {
     EXPECT_NE(text(AxisCondition::axle_held, 7, 0).find("held fast at 7 microsteps"), std::string::npos);
 }
 
-TEST(AxisMechanics, APushThatPassesASwitchIsSeenAtOnce) {
+TEST(AxisMechanics, APushPastASwitchIsDetectedAtOnce) {
     AxisMechanicsSettings s = plain();
     s.limit_plus.position = 0.5;
     s.limit_plus.bounce = Duration{0};
@@ -367,7 +367,7 @@ TEST(AxisMechanics, APushThatPassesASwitchIsSeenAtOnce) {
 
 // ---- Snapshots
 
-TEST(AxisMechanics, ASnapshotTakenInAMoveContinuesAsTheRunThatWasNotInterrupted) {
+TEST(AxisMechanics, ASnapshotDuringAMoveContinuesAsTheUninterruptedRun) {
     AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 15'000;
     s.limit_plus.position = 0.5;

@@ -88,7 +88,7 @@ TEST(DcMotor, VelocityIsProportionalToTheVoltageUpToSaturation) {
     EXPECT_NEAR(rig.rate(), 100'000, 0.01);
 }
 
-TEST(DcMotor, StandsWithinTheDeadBandAndStopsForGoodAtZeroVolts) {
+TEST(DcMotor, IsAtStandstillWithinTheDeadBandAndAtZeroVolts) {
     MotorRig rig;
     rig.kernel.start();
     rig.volts(0.004);
@@ -134,7 +134,7 @@ struct MotorListener final : sim::PositionListener, sim::EdgeListener {
     int reported = 0;
 };
 
-TEST(DcMotor, NotifiesAWatchAtTheExactInstantAndDeliversEveryEdge) {
+TEST(DcMotor, NotifiesAListenerAtTheExactInstantAndDeliversEveryEdge) {
     MotorRig rig;
     MotorListener listener;
     const int slot = rig.motor.add_listener(listener);
@@ -163,7 +163,7 @@ TEST(DcMotor, NotifiesAWatchAtTheExactInstantAndDeliversEveryEdge) {
     EXPECT_LT(listener.reported, 100);
 }
 
-TEST(DcMotor, RunsIntoItsEndsOfTravelAndComesBack) {
+TEST(DcMotor, StopsAtItsEndsOfTravelAndMovesAwayFromThem) {
     DcMotorSettings s;
     s.end_plus = 1'000;
     s.end_minus = -200;

@@ -133,7 +133,7 @@ RC_GTEST_PROP(Encoder, AWatchIsReportedAtTheVeryPulse, ()) {
     RC_ASSERT(floor_div((pulse - direction) * counts, 3200) * direction < bound * direction);
 }
 
-TEST(Encoder, AWatchThatIsLeftAlreadyIsReportedAtTheNextInstantEvenAtStandstill) {
+TEST(Encoder, AWatchedRangeThatIsAlreadyLeftIsReportedAtTheNextInstantEvenAtStandstill) {
     EncoderWorld w(with_counts(4000), {});
     CrossingListener listener(w.machine.encoder());
     w.kernel.start();
@@ -160,7 +160,7 @@ TEST(Encoder, ManyListenersShareOneSlotOfThePulses) {
 
 // ---- Index
 
-TEST(Encoder, TheIndexIsOneCountWideOnceATurnAndCostsNothingUnlessWanted) {
+TEST(Encoder, TheIndexIsOneCountWidePerRevolutionAndCostsNoEventsWithoutASubscriber) {
     EncoderWorld w(with_counts(3200),
                    {{Instant{0}, microseconds(1000), 1}, {milliseconds(4000), microseconds(1000), -1}});
     w.kernel.start();
@@ -178,7 +178,7 @@ TEST(Encoder, TheIndexIsOneCountWideOnceATurnAndCostsNothingUnlessWanted) {
     EXPECT_EQ(w.kernel.events(), events);
 }
 
-TEST(Encoder, AnIndexPassedWithinOneMicrostepIsSeenAllTheSame) {
+TEST(Encoder, AnIndexPassedWithinOneMicrostepIsDetected) {
     AxisMechanicsSettings s = with_counts(4001);  // revolutions end between microsteps, counts are skipped
     s.motor.microsteps = 1;                       // 20 counts a pulse
     EncoderWorld w(s, {{Instant{0}, milliseconds(1), 1}});
@@ -231,7 +231,7 @@ TEST(Encoder, EdgesStopAtTheEndOfTravel) {
     EXPECT_LT(rotor.count, 640);
 }
 
-TEST(Encoder, PulseEdgesAreHandedThroughUntouched) {
+TEST(Encoder, PulseEdgesAreForwardedUnchanged) {
     EncoderWorld w(with_counts(4000), {{Instant{0}, microseconds(10), 1}});
     EdgeRecorder pulses, encoder;
     w.kernel.start();
@@ -284,7 +284,7 @@ RC_GTEST_PROP(Encoder, BrokenAndSwappedLinesCountWhatADecoderOfThoseLinesCounts,
     }
 }
 
-TEST(Encoder, ABrokenLineMakesTheCountGoToAndFroWithinTheWatchedRange) {
+TEST(Encoder, ABrokenLineMakesTheCountOscillateWithinTheWatchedRange) {
     EncoderWorld w(with_counts(3200), {{Instant{0}, microseconds(10), 1}});
     CrossingListener listener(w.machine.encoder());
     w.kernel.start();

@@ -41,7 +41,7 @@ class Scribe final : public Kernel::WireObserver {
 
 // ---- Order
 
-TEST(Kernel, RunsEventsByInstantThenPhaseThenTheOrderInWhichTheyWereAskedFor) {
+TEST(Kernel, RunsEventsByInstantThenPhaseThenOrderOfRequest) {
     Kernel kernel;
     std::array<Puppet, 5> puppets;
     const Phase phases[5] = {Phase::observers, Phase::parts, Phase::cards, Phase::cards, Phase::wires};
@@ -84,7 +84,7 @@ TEST(Kernel, ALaterRequestReplacesTheEarlierOneAndThePastBecomesNow) {
     EXPECT_EQ(acts.size(), 2u);
 }
 
-TEST(Kernel, ABrokenRunEndsAfterTheEventWithEverythingSyncedAndContinuesAfterwards) {
+TEST(Kernel, AnInterruptedRunEndsAfterTheEventWithAllDevicesSyncedAndContinuesAfterwards) {
     Kernel kernel;
     Puppet p;
     const DeviceId id = kernel.add(p, Phase::cards, "p");
@@ -130,7 +130,7 @@ TEST(Kernel, WireChangesAreDeliveredFirstInFirstOutAtTheirInstant) {
     EXPECT_EQ(heard, "1:1@5 2:1@5 1:0@5 3:1@5 3:0@5 ");
 }
 
-TEST(Kernel, WireLevelsSetBeforeTheStartAreHowTheWorldBegins) {
+TEST(Kernel, WireLevelsSetBeforeTheStartAreInitialLevels) {
     Kernel kernel;
     Scribe scribe;
     const WireId a = kernel.add_wire("a", 0);
@@ -178,7 +178,7 @@ struct LazyWorld {
     std::vector<int> heard;
 };
 
-TEST(Kernel, ReadsALazyWireFromItsOwnerWhileNobodySubscribes) {
+TEST(Kernel, ReadsALazyWireFromItsOwnerWithoutSubscribers) {
     LazyWorld w;
     EXPECT_TRUE(w.kernel.lazy(w.wire));
     EXPECT_FALSE(w.kernel.wanted(w.wire));
@@ -254,7 +254,7 @@ TEST(Kernel, AnInverterThatDrivesItselfIsReportedAndNotAnEndlessLoop) {
 
 // ---- Conditions
 
-TEST(Kernel, KeepsTheLatestConditionsAndReportsHowManyAreGone) {
+TEST(Kernel, KeepsTheLatestConditionsAndReportsTheNumberOfDroppedOnes) {
     Kernel kernel;
     Puppet p;
     const DeviceId id = kernel.add(p, Phase::cards, "p");
@@ -304,7 +304,7 @@ struct Clockwork {
     std::array<WireId, 2> wires{};
 };
 
-TEST(Kernel, ARunFromASnapshotIsTheRunThatWasNotInterrupted) {
+TEST(Kernel, ARunFromASnapshotEqualsTheUninterruptedRun) {
     Clockwork whole;
     whole.kernel.run_until(Instant{1'000'000});
     Clockwork cut;
@@ -359,7 +359,7 @@ TEST(Kernel, ASnapshotHasTheWireChangesThatHaveNotReachedTheirListeners) {
     EXPECT_EQ(copy.kernel.state_hash(), first.kernel.state_hash());
 }
 
-TEST(Kernel, TheTraceHashDistinguishesHistoriesThatEndAlike) {
+TEST(Kernel, TheTraceHashDistinguishesEventTracesWithEqualEnds) {
     auto hash = [](Instant when, int times) {
         Kernel kernel;
         const WireId a = kernel.add_wire("a", 0);

@@ -146,7 +146,7 @@ TEST(LineEncoder, JitterDelaysEdgesButLosesNone) {
     EXPECT_EQ(w.counter.decoder.illegal(), 0u);
 }
 
-TEST(LineEncoder, TooQuickItLosesWholeLinesWithoutASign) {
+TEST(LineEncoder, AboveItsMaximumRateLosesWholeLinesWithoutAReport) {
     Disc w(small_disc(), to_and_fro);
     EXPECT_TRUE(w.fault("overspeed", 30'000));  // it moves at 100,000
     w.run(milliseconds(30));
@@ -160,7 +160,7 @@ TEST(LineEncoder, TooQuickItLosesWholeLinesWithoutASign) {
 
 // ---- faults of lines
 
-TEST(LineEncoder, ABrokenLineMakesADecoderGoToAndFro) {
+TEST(LineEncoder, ABrokenLineMakesADecoderOscillate) {
     for (const char* name : {"broken_a", "encoder.broken_b"})
         for (const double level : {1.0, 2.0}) {
             Disc w(small_disc(), forwards);
@@ -177,7 +177,7 @@ TEST(LineEncoder, ABrokenLineMakesADecoderGoToAndFro) {
         }
 }
 
-TEST(LineEncoder, ABrokenIndexIsNotSeen) {
+TEST(LineEncoder, ABrokenIndexIsNotDetected) {
     Disc w(small_disc(), forwards);
     EXPECT_TRUE(w.fault("broken_z", 1));
     w.run(milliseconds(20));
@@ -219,7 +219,7 @@ TEST(LineEncoder, MissingAndDoubleIndexes) {
     EXPECT_FALSE(w.fault("double_index", 400));
 }
 
-TEST(LineEncoder, DirtHidesItsLinesWithoutASign) {
+TEST(LineEncoder, DirtHidesItsLinesWithoutAReport) {
     LineEncoderSettings s = small_disc();
     s.dirt_at = 101;
     Disc w(s, {{Instant{0}, microseconds(1), 1}, {milliseconds(12), microseconds(1), -1}});
@@ -249,7 +249,7 @@ TEST(LineEncoder, ANoiseBurstMakesPulsesOnAAndBAndThenEnds) {
     EXPECT_EQ(w.kernel.events(), events);
 }
 
-TEST(LineEncoder, FaultsThatItHasNotAndValuesOutOfRangeAreRefused) {
+TEST(LineEncoder, UnknownFaultsAndValuesOutOfRangeAreRejected) {
     Disc w(small_disc(), forwards);
     EXPECT_FALSE(w.fault("no_such", 1));
     EXPECT_FALSE(w.fault("", 1));
@@ -335,7 +335,7 @@ TEST(Resolver, GivesLinesAndAnIndexAsAnEncoderDoes) {
     EXPECT_EQ(w.kernel.level(w.part.los()), 0);
 }
 
-TEST(Resolver, WindingsThatAreNotAlikeErrTwiceATurnOffsetsOnce) {
+TEST(Resolver, UnequalWindingsCauseErrorsTwicePerRevolutionAndOffsetsOnce) {
     struct Case {
         const char* fault;
         double value;
@@ -358,7 +358,7 @@ TEST(Resolver, WindingsThatAreNotAlikeErrTwiceATurnOffsetsOnce) {
     }
 }
 
-TEST(Resolver, TooQuickItFollowsLaterAndLosesNothing) {
+TEST(Resolver, AboveItsMaximumRateLagsAndLosesNothing) {
     Winding w(small_resolver(), to_and_fro);
     EXPECT_TRUE(w.fault("overspeed", 40'000));
     w.run(milliseconds(6));
@@ -368,7 +368,7 @@ TEST(Resolver, TooQuickItFollowsLaterAndLosesNothing) {
     EXPECT_EQ(w.part.lost(), 0);
 }
 
-TEST(Resolver, WithoutASignalTheLinesStayAndAfterwardsItGoesTheShorterWay) {
+TEST(Resolver, WithoutASignalHoldsTheLinesAndThenTakesTheShorterDirection) {
     for (const char* winding : {"broken_sin", "encoder.broken_cos"}) {
         Winding w(small_resolver(), {{Instant{0}, microseconds(1), 1}, {milliseconds(40), microseconds(1), 0}});
         w.run(milliseconds(5));

@@ -144,7 +144,7 @@ TEST(LinearScale, CountsAtTwentyMegahertzOverTwoMetresAtNoCost) {
     EXPECT_GT(known, 7'000'000'000);
 }
 
-TEST(LinearScale, NotifiesAWatchAtTheInstantOfTheEdge) {
+TEST(LinearScale, NotifiesAListenerAtTheInstantOfTheEdge) {
     for (const bool reversed : {false, true}) {
         LinearScaleSettings s;
         s.reversed = reversed;
@@ -242,7 +242,7 @@ TEST(LinearScale, LosesCountsThatAreTooFastAndReportsIt) {
     EXPECT_TRUE(rig.scale.counts_valid());
 }
 
-TEST(LinearScale, FaultsChangeTheMeasureAndNothingElse) {
+TEST(LinearScale, FaultsChangeTheMeasuredPositionOnly) {
     LinearScaleSettings s;
     s.dirt_position_nm = 1e6;
     s.index_nm = 2e6;
@@ -292,7 +292,7 @@ TEST(LinearScale, TheReferenceMarkIsOneCountWide) {
     }
 }
 
-TEST(LinearScale, RidesOnAnyMotion) {
+TEST(LinearScale, MeasuresAnyPositionFunction) {
     sim::Kernel kernel;
     sim::FakePulses pulses(kernel, {{Instant{0}, microseconds(10), 1}});
     LinearScaleSettings s;

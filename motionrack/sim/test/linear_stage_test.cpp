@@ -103,7 +103,7 @@ RC_GTEST_PROP(LinearStage, IsWhereItIsHoweverOftenItIsAsked, ()) {
     }
 }
 
-TEST(LinearStage, GainsTheEnergyThatTheForceGivesLessThatOfTheBrakes) {
+TEST(LinearStage, GainsTheWorkOfTheForceMinusFriction) {
     LinearStageSettings s;
     s.coulomb_friction = 0.5;
     Rig rig(s);
@@ -124,7 +124,7 @@ TEST(LinearStage, GainsTheEnergyThatTheForceGivesLessThatOfTheBrakes) {
     EXPECT_EQ(rig.kernel.events(), events) << "a stage that stands costs nothing";
 }
 
-TEST(LinearStage, ViscousFrictionEndsInTheVelocityAtWhichItBrakesAsMuch) {
+TEST(LinearStage, ViscousFrictionLeadsToTheVelocityAtWhichItEqualsTheForce) {
     LinearStageSettings s;
     s.viscous_friction = 20;
     Rig rig(s);
@@ -198,7 +198,7 @@ RC_GTEST_PROP(LinearStage, NotifiesAWatchAtTheExactTick, ()) {
     }
 }
 
-TEST(LinearStage, HandsOverEveryEdgeInItsOrderAndAtItsTick) {
+TEST(LinearStage, DeliversEveryEdgeInOrderAtItsTick) {
     Rig rig;
     RecordingListener listener;
     rig.kernel.start();
@@ -247,7 +247,7 @@ TEST(LinearStage, IsExactAfterAnHourOnAMetre) {
     EXPECT_NEAR(rig.nm(), 0.72e9, 3e3);
 }
 
-TEST(LinearStage, MarkedRatesAreReportedAtTheirTick) {
+TEST(LinearStage, WatchedRatesAreReportedAtTheirTick) {
     Rig rig;
     RecordingListener listener;
     rig.stage.add_listener(listener);
@@ -262,7 +262,7 @@ TEST(LinearStage, MarkedRatesAreReportedAtTheirTick) {
     EXPECT_NEAR(to_seconds(listener.reported[2]), 0.18, 2e-10);
 }
 
-TEST(LinearStage, RunsIntoItsEndsOfTravelAndComesBack) {
+TEST(LinearStage, StopsAtItsEndsOfTravelAndMovesAwayFromThem) {
     LinearStageSettings s;
     s.hard_stop_plus_nm = 1'000'000;
     s.hard_stop_minus_nm = -200'000;
@@ -318,7 +318,7 @@ TEST(LinearStage, AcceptsFaultsThatStallPushBrakeAndLoadIt) {
     for (const std::string_view name : LinearStage::fault_names()) EXPECT_TRUE(fault(name, 0)) << name;
 }
 
-TEST(LinearStage, ASnapshotContinuesAsTheFirstTimeAndNothingIsAllocated) {
+TEST(LinearStage, ARestoredSnapshotContinuesIdenticallyWithoutAllocation) {
     LinearStageSettings s;
     s.viscous_friction = 3;
     s.coulomb_friction = 0.1;

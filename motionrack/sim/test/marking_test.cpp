@@ -172,7 +172,7 @@ TEST(Workpiece, StraightAndEvenIsOneSegmentAndACircleIsNot) {
     }
 }
 
-TEST(Workpiece, MorePointsThanItMayKeepAreCounted) {
+TEST(Workpiece, PointsBeyondItsCapacityAreCounted) {
     Workpiece piece({.max_points = 10});
     for (int i = 0; i < 20; ++i) piece.add({i * 1.0, 0}, {i + 0.5, 0}, 1, i);
     piece.finish();

@@ -140,7 +140,7 @@ TEST(VirtualPort, WaitsForAnInterruptWithoutTimeoutIfAllowed) {
     EXPECT_LT(port.now(), milliseconds(50));
 }
 
-TEST(VirtualPort, ABufferThatIsNearlyFullIsDrainedBeforeTheRunContinues) {
+TEST(VirtualPort, DrainsANearlyFullBufferBeforeTheRunContinues) {
     class Filler final : public Device {
       public:
         explicit Filler(Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, Phase::observers, "filler")) {

@@ -35,7 +35,7 @@ struct Bench {
     ScanHead head;
 };
 
-TEST(ScanHead, MarksWhereTheMirrorsGoWhileTheGateIsOn) {
+TEST(ScanHead, MarksThePathOfTheMirrorsWhileTheGateIsOn) {
     Bench bench;
     bench.at(205, bench.laser, 1);  // in tick 10
     for (int i = 1; i <= 100; ++i) bench.at(20 * (10 + i), bench.x, 10 * i);
@@ -48,7 +48,7 @@ TEST(ScanHead, MarksWhereTheMirrorsGoWhileTheGateIsOn) {
     EXPECT_DOUBLE_EQ(bench.head.station().spot().x, 1);
 }
 
-TEST(ScanHead, AllTheSameHowARunIsCut) {
+TEST(ScanHead, IsTheSameHoweverARunIsDivided) {
     Bench whole, cut;
     for (Bench* bench : {&whole, &cut}) {
         bench->at(100, bench->laser, 1);

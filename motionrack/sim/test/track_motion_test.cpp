@@ -32,7 +32,7 @@ TEST(Conveyor, ReportsWhenItLeavesARange) {
     EXPECT_EQ(stationary.leaves(0, -1e-9, 1e-9), never_s);
 }
 
-TEST(Conveyor, ContinuesFromWhereItIsWhenItsVelocityIsChanged) {
+TEST(Conveyor, ContinuesFromItsPositionWhenItsVelocityChanges) {
     Conveyor track = track_of({{0, 100}});
     track.drive(1, -20);
     EXPECT_DOUBLE_EQ(track.travel(1), 100);
@@ -44,7 +44,7 @@ TEST(Conveyor, ContinuesFromWhereItIsWhenItsVelocityIsChanged) {
     EXPECT_DOUBLE_EQ(track.velocity(3), 100);
 }
 
-TEST(Conveyor, BrakesWithItsDecelerationWhenItIsStopped) {
+TEST(Conveyor, StopsWithItsDeceleration) {
     for (const double way : {1.0, -1.0}) {
         Conveyor track = *Conveyor::make({.profile = {{0, 100 * way}}, .deceleration = 200});
         track.stop(1);  // for 0.5 s, over 25 mm
@@ -98,7 +98,7 @@ TEST(ConveyorPosition, MakesEveryEdgeAtItsInstantThereAndBack) {
     }
 }
 
-TEST(ConveyorPosition, ListenersHearBothRatesInCountsASecondWhenTheVelocityIsChanged) {
+TEST(ConveyorPosition, ListenersReceiveBothRatesInCountsPerSecondWhenTheVelocityChanges) {
     struct RatesListener final : sim::PositionListener {
         void crossed(Instant) override {}
         void rate_changed(double from, double to, Instant) override { before = from, after = to; }
@@ -121,7 +121,7 @@ TEST(ConveyorPosition, ListenersHearBothRatesInCountsASecondWhenTheVelocityIsCha
     EXPECT_DOUBLE_EQ(of_turned.after, -200);
 }
 
-TEST(PartSensor, IsLowWhileAPartIsThereAndCountsThem) {
+TEST(PartSensor, IsLowWhileAPartIsPresentAndCountsParts) {
     sim::Kernel kernel;
     ConveyorDrive drive(kernel, "belt", track_of({{0, 100}}));
     ConveyorPosition position(kernel, "place", drive.track(), 1000);

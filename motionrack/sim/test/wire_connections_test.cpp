@@ -23,7 +23,7 @@ class JunctionListener final : public Device {
     std::vector<Change> heard;
 };
 
-TEST(WireConnections, CopyALevelToManyWiresAtTheSameInstantAndTurnItWhereAsked) {
+TEST(WireConnections, CopyALevelToManyWiresAtTheSameInstantAndInvertItIfRequested) {
     Kernel kernel;
     JunctionListener listener(kernel);
     WireConnections junctions(kernel);
@@ -43,7 +43,7 @@ TEST(WireConnections, CopyALevelToManyWiresAtTheSameInstantAndTurnItWhereAsked) 
               (std::vector<JunctionListener::Change>{{1, 1, Instant{0}}, {1, 0, Instant{10}}, {2, 1, Instant{10}}}));
 }
 
-TEST(WireConnections, ALazyWireStaysLazyUntilSomeoneBehindTheJunctionWantsIt) {
+TEST(WireConnections, ALazyWireStaysLazyUntilAConnectedWireHasASubscriber) {
     Kernel kernel;
     FakePulses pulses(kernel, {{Instant{0}, microseconds(10), +1}});
     parts::AxisMechanicsSettings s;

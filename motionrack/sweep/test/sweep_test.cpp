@@ -42,11 +42,11 @@ TEST(Sweep, GridChangesItsLastParameterFirst) {
     EXPECT_EQ(all, "0.01 100\n0.01 133.33\n0.01 166.67\n0.01 200\n0.5 100\n0.5 133.33\n0.5 166.67\n0.5 200\n");
 }
 
-TEST(Sweep, PutsValuesIntoTheProgramAndLeavesOtherBracesAlone) {
+TEST(Sweep, InsertsValuesIntoTheProgramAndKeepsOtherBraces) {
     EXPECT_EQ(sweep_of(grid).point(5).program, "G21 G90 G64 P0.5\nG1 X10 Y5 F133.33\nX0 ({other} 0.5)\n");
 }
 
-TEST(Sweep, DrawsTheSamePointsWithTheSameSeedAndMoreBeginWithThem) {
+TEST(Sweep, DrawsTheSamePointsForTheSameSeedAndMorePointsStartWithThem) {
     const Sweep few = sweep_of(chance);
     std::string more_text = chance;
     more_text.replace(more_text.find("40"), 2, "90");
@@ -138,7 +138,7 @@ TEST(Point, GivesTheSameRowAgain) {
     EXPECT_EQ(cell_of(*row, "x_lost_pulses"), "0");
 }
 
-TEST(Point, HasLostStepsThoughItFoundThemAgainByChance) {
+TEST(Point, ReportsLostStepsThatWereRegainedByChance) {
     // A motor that loses steps in both directions may end at its commanded position.
     PointText point;
     point.rack = "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n";
@@ -150,7 +150,7 @@ TEST(Point, HasLostStepsThoughItFoundThemAgainByChance) {
     EXPECT_EQ(cell_of(*row, "ended"), "lost_steps");
 }
 
-TEST(SweepFile, TakesAnyTextWithoutHarm) {
+TEST(SweepFile, SurvivesAnyText) {
     std::mt19937 random(7);
     const std::string seed_text =
         grid + "fault = [\"X.motor.stall@1s\"]\naxis.X.max_limit_mm = { from = 1, to = 9, steps = 3, whole = true }\n";

@@ -86,7 +86,7 @@ TEST(WriteEventsCsv, WritesMovesWarningsMaximumDeviationAndStopInOrderOfTime) {
               "7,warning,,,,,Later than the path\r\n");
 }
 
-TEST(CsvWriter, ThatIsDestroyedUnclosedLeavesTheFileThatWasThere) {
+TEST(CsvWriter, DestroyedWithoutCloseLeavesTheOldFile) {
     const Scratch scratch;
     std::ofstream(scratch.path("a.csv")) << "old";
     {

@@ -51,7 +51,7 @@ std::vector<PathPoint> spiral(int count) {
     return points;
 }
 
-TEST(ThinPath, LeavesOutOnlyWhatLiesWithinTheTolerance) {
+TEST(ThinPath, OmitsOnlyPointsWithinTheTolerance) {
     const auto points = spiral(5000);
     const DecimatedPath path = thin_path(points, {}, 0.01, 100'000);
     EXPECT_EQ(path.within, 0.01);
@@ -72,7 +72,7 @@ TEST(ThinPath, LeavesOutOnlyWhatLiesWithinTheTolerance) {
     }
 }
 
-TEST(ThinPath, KeepsFixedPointsWhileTheyFitAndNeverMoreThanAllowed) {
+TEST(ThinPath, KeepsFixedPointsUpToTheMaximumNumber) {
     const auto points = spiral(5000);
     std::vector<bool> fixed(points.size(), false);
     for (std::size_t i = 0; i < points.size(); i += 100) fixed[i] = true;

@@ -24,7 +24,7 @@ Diff diff_of(const PlainRecording& a, const PlainRecording& b) {
     return diff ? *diff : Diff();
 }
 
-TEST(DiffOfRecordings, IsNoneOfARecordingAndItself) {
+TEST(DiffOfRecordings, IsEmptyForARecordingAndItself) {
     const Diff diff = diff_of(busy(50'000), busy(50'000));
     EXPECT_TRUE(diff.same()) << diff_text(diff, "a", "b");
     EXPECT_EQ(diff.signals, 5u + 4 + 5 + 1);
@@ -75,7 +75,7 @@ TEST(DiffOfRecordings, ReportsTheirSourcesAndSignalsOfOneAlone) {
     EXPECT_FALSE(diff.same());
 }
 
-TEST(DiffOfRecordings, OfOneThatWasCutOffGoesAsFarAsThatOneDoes) {
+TEST(DiffOfRecordings, OfATruncatedRecordingComparesUpToItsEnd) {
     const Scratch scratch;
     const PlainRecording plain = busy(4000);
     ASSERT_TRUE(plain.write(scratch.path("whole.h5")));
@@ -217,7 +217,7 @@ TEST(DiffOfTables, ComparesTablesOfChangesByInstant) {
                 HasSubstr("X.step, at 0.0000001250 s (125.0 ns, tick 1250)\n    A: 1\n    B: 0\n"));
 }
 
-TEST(Diff, RefusesTwoKindsAndFilesOfNone) {
+TEST(Diff, RejectsFilesOfDifferentAndUnknownKinds) {
     const Scratch scratch;
     std::ofstream(scratch.path("a.csv")) << "time_s,a\n0,1\n";
     std::ofstream(scratch.path("b.vcd")) << "$timescale 1 ns $end $enddefinitions $end\n";

@@ -40,7 +40,7 @@ RC_GTEST_PROP(Recording, GivesBackEveryEventWithItsTick, ()) {
         RC_ASSERT(events_of(*reader, plain.head.signals[i].name) == plain.expected(i));
 }
 
-TEST(Recording, GivesBackMoreThanItsBuffersHold) {
+TEST(Recording, ReadsBackMoreThanItsBuffersHold) {
     const Scratch scratch;
     const PlainRecording plain = busy(300'000);
     ASSERT_TRUE(plain.write(scratch.path("a.h5")));
@@ -141,7 +141,7 @@ void write_and_die(const PlainRecording& plain, const std::string& path, std::si
     ASSERT_TRUE(WIFSIGNALED(status));
 }
 
-TEST(Recording, OfAKilledProgramHasAllThatWasFlushed) {
+TEST(Recording, OfAKilledProgramHasAllFlushedData) {
     const Scratch scratch;
     for (const std::size_t flush : {300u, 7'000u, 60'000u}) {
         const PlainRecording plain = busy(100'000);
@@ -191,7 +191,7 @@ void put_bytes(const std::string& path, const std::string& bytes) {
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-TEST(Recording, ThatWasDamagedIsReportedAndNeverTakenForGood) {
+TEST(Recording, DamageIsReported) {
     const Scratch scratch;
     const PlainRecording plain = busy(3000);
     ASSERT_TRUE(plain.write(scratch.path("good.h5")));
@@ -211,7 +211,7 @@ TEST(Recording, ThatWasDamagedIsReportedAndNeverTakenForGood) {
     EXPECT_LT(unharmed, 200);
 }
 
-TEST(Recording, ThatWasCutAnywhereIsReported) {
+TEST(Recording, TruncationAnywhereIsReported) {
     const Scratch scratch;
     ASSERT_TRUE(busy(3000).write(scratch.path("good.h5")));
     const std::string good = file_text(scratch.path("good.h5"));

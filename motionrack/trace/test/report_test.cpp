@@ -124,7 +124,7 @@ TEST(Report, OfTheSameRunHasTheSameBytes) {
     EXPECT_EQ(report_html(circle(5000)), report_html(circle(5000)));
 }
 
-TEST(Report, FetchesNothing) {
+TEST(Report, LoadsNothingFromTheNetwork) {
     const std::string page = report_html(circle(1000));
     for (const char* link : {"http://", "https://", "src=", "@import", "url(", "<link"}) {
         EXPECT_EQ(page.find(link), std::string::npos) << link;
@@ -132,7 +132,7 @@ TEST(Report, FetchesNothing) {
     EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
 }
 
-TEST(Report, TextsOfARunCannotBreakOut) {
+TEST(Report, EscapesTextsOfARun) {
     const std::string evil = "</script></style></title><script>alert(1)</script><!-- \" onload='x' {{notes}} ]]>";
     ReportData data = circle(100);
     const std::size_t scripts = count(report_html(data), "<script");
@@ -153,7 +153,7 @@ TEST(Report, TextsOfARunCannotBreakOut) {
     EXPECT_EQ(drawing_of(page)["charts"][0]["name"], evil);
 }
 
-TEST(Report, BytesThatAreNoUtf8BecomeReplacementCharacters) {
+TEST(Report, ReplacesInvalidUtf8ByReplacementCharacters) {
     ReportData data = circle(100);
     data.title =
         "a\xFF"
@@ -207,7 +207,7 @@ TEST(Report, NumbersThatAreNotFiniteAreNeverWritten) {
     EXPECT_FALSE(drawing_of(page).empty());
 }
 
-TEST(Report, ShowsPicturesTablesSeriesAndAFileAndNothingOfThemBreaksOut) {
+TEST(Report, ShowsAndEscapesPicturesTablesSeriesAndAFile) {
     ReportData data;
     data.program_kind = "Job";
     data.program_name = "<job>";
@@ -228,7 +228,7 @@ TEST(Report, ShowsPicturesTablesSeriesAndAFileAndNothingOfThemBreaksOut) {
     EXPECT_EQ(page.find("<i>cell"), std::string::npos);
 }
 
-TEST(Report, OfNothingIsAPageAllTheSame) {
+TEST(Report, OfAnEmptyRunIsAPage) {
     const std::string page = report_html({});
     EXPECT_NE(page.find("<title>Motionrack run</title>"), std::string::npos);
     EXPECT_TRUE(drawing_of(page)["charts"].empty());

@@ -18,7 +18,7 @@ std::size_t count_of(const std::string& text, const std::string& what) {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(SvgScatter, DrawsADotForEachValueAndACrossForWhatEndedBadly) {
+TEST(SvgScatter, DrawsADotForEachValueAndACrossForEachFailure) {
     const std::string svg =
         svg_scatter({"time, s", "feed <b>", {}, {{"a & b", "x", {{1, 2}, {2, 3}, {3, 1, true}, {4, nan, true}}, true}}},
                     {400, 200, true});
@@ -40,7 +40,7 @@ TEST(SvgScatter, HasNamesInsteadOfNumbers) {
     EXPECT_THAT(svg, HasSubstr(">a fault with a n..<"));
 }
 
-TEST(SvgScatter, DrawsNothingOneAndVeryMany) {
+TEST(SvgScatter, DrawsNoneOneAndManyValues) {
     EXPECT_THAT(svg_scatter({"t", "x", {}, {}}), testing::EndsWith("</svg>\n"));
     EXPECT_EQ(count_of(svg_scatter({"t", "x", {}, {{"", "z", {{5, 5}}, true}}}), "<circle"), 1u);
     EXPECT_THAT(svg_scatter({"t", "x", {}, {{"", "z", {{1e15, 1e300}, {1e15 + 1, -1e300}}, true}}}),

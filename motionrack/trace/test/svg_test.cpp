@@ -46,7 +46,7 @@ TEST(SvgPath, AShadeColoursRunsAndHasAScale) {
         << "shades that do not fit are left out";
 }
 
-TEST(SvgPath, ArrowsTellTheWayAndNeverGrowIntoACrowd) {
+TEST(SvgPath, ArrowsShowTheDirectionAndAreLimitedInNumber) {
     SvgStyle style;
     style.width = style.height = 268;
     ReportData data = corner();
@@ -82,7 +82,7 @@ TEST(SvgPath, StandsAloneWithStyleAndNameOnlyWhenAsked) {
     EXPECT_NE(svg.find("<style>"), std::string::npos);
 }
 
-TEST(SvgPath, OfOnePointOrNoneHoldsNoWildNumbers) {
+TEST(SvgPath, OfOnePointOrNoneHasFiniteNumbersOnly) {
     ReportData data;
     for (int points = 0; points < 2; ++points) {
         for (const PathView view : {PathView::plan, PathView::perspective}) {
@@ -108,7 +108,7 @@ TEST(SvgChart, ShowsALimitOnceTheValuesUseAQuarterOfIt) {
     EXPECT_NE(svg_chart(chart).find("class=\"limit\""), std::string::npos);
 }
 
-TEST(SvgChart, RangeOfEqualNoneOrWildValuesIsNeverEmpty) {
+TEST(SvgChart, RangeOfEqualNoOrNonFiniteValuesIsNeverEmpty) {
     const std::vector<double> seconds = {0, 1, 2};
     for (const float v :
          {0.0F, 5.0F, -5.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::max()}) {

@@ -58,7 +58,7 @@ TEST(SvgColumn, HasItsPartsBelowEachOther) {
     EXPECT_THAT(out, testing::HasSubstr("y=\"124\" width=\"300\" height=\"50\">\n<g id=\"b\"/>"));
 }
 
-TEST(SvgTimeline, NothingToShowIsAPictureToo) {
+TEST(SvgTimeline, IsAPictureWithoutAnyChart) {
     const std::string out = svg_timeline("empty", {}, {}, {});
     EXPECT_THAT(out, testing::EndsWith("</svg>\n"));
     EXPECT_THAT(out, testing::Not(testing::HasSubstr("nan")));

@@ -99,7 +99,7 @@ TEST(VcdWriter, RefusesATimescaleThatVcdDoesNotHave) {
     EXPECT_FALSE(std::filesystem::exists(vcd_scratch.path("a.vcd")));
 }
 
-TEST(VcdWriter, MakesNamesThatEveryReaderTakesAndKeepsThemApart) {
+TEST(VcdWriter, MakesUniqueNamesThatEveryReaderAccepts) {
     const Scratch vcd_scratch;
     VcdWriter vcd = open(vcd_scratch.path("a.vcd"));
     vcd.push_scope("Fr\xC3\xA4se 1");
@@ -119,7 +119,7 @@ TEST(VcdWriter, MakesNamesThatEveryReaderTakesAndKeepsThemApart) {
     EXPECT_EQ(names, (std::vector<std::string>{"limitm", "_", "_1st", "a_b", "a_b_2", "a_b_3", "x_3_", "_end"}));
 }
 
-TEST(VcdWriter, CodesOfThousandsOfWiresAllDiffer) {
+TEST(VcdWriter, CodesOfThousandsOfWiresAreUnique) {
     const Scratch vcd_scratch;
     VcdWriter vcd = open(vcd_scratch.path("a.vcd"));
     for (int i = 0; i < 20'000; ++i) vcd.add_wire(std::string("w").append(std::to_string(i)));
@@ -145,7 +145,7 @@ TEST(VcdWriter, ReportsAtTheEndThatTheDiskIsFull) {
     EXPECT_FALSE(vcd.close(whole_seconds(1))) << "changes were left out";
 }
 
-TEST(VcdWriter, ThatIsDestroyedUnclosedLeavesTheFileThatWasThere) {
+TEST(VcdWriter, DestroyedWithoutCloseLeavesTheOldFile) {
     const Scratch vcd_scratch;
     std::ofstream(vcd_scratch.path("a.vcd")) << "old";
     {
