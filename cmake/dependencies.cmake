@@ -2,7 +2,7 @@
 # the one list: the top CMakeLists.txt looks for them here, and motionrackConfig.cmake looks for the public ones where
 # the library is installed.
 
-# Whoever compiles or links against the installed rooms needs these.
+# Whoever compiles or links against the installed modules needs these.
 set(motionrack_public_packages "fmt 9" "tl-expected 1.0" "tomlplusplus 3.3" "ZLIB 1.2")
 # Those of them that are libraries, as a linker calls them.
 set(motionrack_linked_libraries fmt tomlplusplus z)

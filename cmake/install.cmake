@@ -3,24 +3,24 @@
 # are packages of their own: cmake/package.cmake.
 include(CMakePackageConfigHelpers)
 
-get_property(rooms GLOBAL PROPERTY motionrack_rooms)
+get_property(modules GLOBAL PROPERTY motionrack_modules)
 
 # ---- libraries ----
-install(TARGETS motionrack_flags ${rooms} EXPORT motionrack-cpp ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+install(TARGETS motionrack_flags ${modules} EXPORT motionrack-cpp ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         COMPONENT dev)
 
 # motionrack_c_library(TARGET EXPORT_NAME HEADERS): a shared C library, for others motionrack::EXPORT_NAME;
-# and its archive, with all rooms in it, for programs that are to stand alone. HEADERS: where its PUBLIC_HEADER goes.
+# and its archive, with all modules in it, for programs that are to stand alone. HEADERS: where its PUBLIC_HEADER goes.
 function(motionrack_c_library target export_name headers)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
   install(TARGETS ${target} EXPORT motionrack-c
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT dev
           PUBLIC_HEADER DESTINATION ${headers} COMPONENT dev INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   set(objects $<TARGET_OBJECTS:${target}>)
-  foreach(room IN LISTS rooms)
-    get_target_property(type ${room} TYPE)
+  foreach(module IN LISTS modules)
+    get_target_property(type ${module} TYPE)
     if(type STREQUAL "STATIC_LIBRARY")
-      list(APPEND objects $<TARGET_OBJECTS:${room}>)
+      list(APPEND objects $<TARGET_OBJECTS:${module}>)
     endif()
   endforeach()
   add_library(${target}_archive STATIC ${objects})
@@ -34,7 +34,7 @@ motionrack_c_library(mcx314lib mcx314lib ${CMAKE_INSTALL_INCLUDEDIR})
 motionrack_c_library(databoard4002lib databoard4002lib ${CMAKE_INSTALL_INCLUDEDIR})
 motionrack_c_library(rtc5sim rtc5sim ${CMAKE_INSTALL_INCLUDEDIR})
 
-# ---- headers: those of the rooms; the program and the C library have none but c.h ----
+# ---- headers: those of the modules; the program and the C library have none but c.h ----
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
         FILES_MATCHING PATTERN "*.hpp" PATTERN test EXCLUDE PATTERN windows EXCLUDE PATTERN frontends EXCLUDE
         PATTERN report EXCLUDE PATTERN wire.hpp EXCLUDE REGEX "/(hdf5|nats|dds|late)_library[.]hpp$" EXCLUDE)

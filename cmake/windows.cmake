@@ -1,8 +1,8 @@
 # A build for Windows, by cmake/windows.toolchain.cmake: the MCX314's function library alone, as a DLL that needs
-# nothing but Windows, and the archive that it is given away in (cpack -G ZIP). Rooms that need Linux are not in it; in
+# nothing but Windows, and the archive that it is given away in (cpack -G ZIP). Modules that need Linux are left out; in
 # the others, files of a folder windows/ take the places of those with their names: see motionrack_sources.
 #
-#   /usr/include: headers that are whole libraries ──► links in headers/ ──► rooms ──► mcx314lib.dll,
+#   /usr/include: headers that are whole libraries ──► links in headers/ ──► modules ──► mcx314lib.dll,
 #                                                                                   libmcx314lib.dll.a, mcx314lib.def
 
 # The host's folder of headers has those of its C library too, which are not for Windows.
@@ -23,8 +23,8 @@ motionrack_header_library(tl::expected tl expected.hpp)
 motionrack_header_library(fast_float::fast_float fast_float fast_float.h)
 
 # Only what the library needs of them is built.
-foreach(room base live sim cards/mcx314)
-  add_subdirectory(motionrack/${room} EXCLUDE_FROM_ALL)
+foreach(module base live sim cards/mcx314)
+  add_subdirectory(motionrack/${module} EXCLUDE_FROM_ALL)
 endforeach()
 add_subdirectory(motionrack/frontends/mcx314lib)
 

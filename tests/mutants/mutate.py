@@ -61,7 +61,7 @@ class Mutant:
 
 @dataclass
 class Mutation:
-    """One file of a room: its edits and its mutants."""
+    """One file of a module: its edits and its mutants."""
 
     file: Path
     text: bytes

@@ -1,4 +1,4 @@
-# One CMake target a room: what a room may include is what it links, so the linker keeps the plan of the house.
+# One CMake target a module: what a module may include is what it links, so the linker enforces the dependencies.
 
 # Flags every translation unit of the product has: same input, same bits, on every compiler and CPU.
 add_library(motionrack_flags INTERFACE)
@@ -9,19 +9,19 @@ target_include_directories(motionrack_flags INTERFACE $<BUILD_INTERFACE:${PROJEC
 # faster.
 # Strangers need only the flag that decides bits.
 # In a test a local name may be that of a constant in the source beside it; clang++ takes any two for one that way.
-set(room_shadow -Wshadow)
+set(shadow_warning -Wshadow)
 set(local_shadow -Wshadow=local)
 if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(local_shadow -Wno-shadow)
   if(MOTIONRACK_UNITY)
-    set(room_shadow -Wno-shadow)
+    set(shadow_warning -Wno-shadow)
   endif()
 endif()
 set(shadow $<TARGET_PROPERTY:MOTIONRACK_SHADOW>)
 # Assertions name a source by its place in the tree: what is built does not depend on the folder it was built in.
 set(own_flags -fno-semantic-interposition -fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=
     -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion
-    $<IF:$<BOOL:${shadow}>,${shadow},${room_shadow}>)
+    $<IF:$<BOOL:${shadow}>,${shadow},${shadow_warning}>)
 if(MOTIONRACK_WERROR)
   list(APPEND own_flags -Werror)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -39,7 +39,7 @@ if(NOT WIN32)
   add_link_options(LINKER:-z,relro,-z,now,-z,noexecstack)
 endif()
 
-# motionrack_harden(TARGET): it checks its stack, its copies and its containers while it runs, as all rooms do but the
+# motionrack_harden(TARGET): it checks its stack, its copies and its containers while it runs, as all modules do but the
 # fast ones, and what is linked of them. Builds for sanitizers have their own checks.
 function(motionrack_harden target)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize|--coverage")
@@ -67,7 +67,7 @@ if(MOTIONRACK_UNITY)
   endif()
 endif()
 
-# A Release has -O3 for what is FAST, -O2 for the other rooms, and less for code that is compiled longer than it runs.
+# A Release has -O3 for what is FAST, -O2 for the other modules, and less for code that is compiled longer than it runs.
 # motionrack_optimise(TARGET LEVEL): another level than that of the build type, in a Release.
 function(motionrack_optimise target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
@@ -107,38 +107,38 @@ function(motionrack_sources out)
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
-# motionrack_room(NAME [FAST [READS_FILES]] [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library
+# motionrack_module(NAME [FAST [READS_FILES]] [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library
 # motionrack_NAME, for others motionrack::NAME; without sources it is headers only. Only its sources use LIBRARIES and
 # HEADERS_OF; the latter have no library.
 # FAST: the kernel and what it drives run some millions of times a second and are given numbers, no texts; checks would
 # take a tenth of their time. For the same reason fuzzers are told its branches, not its comparisons.
 # READS_FILES: it reads bytes that strangers wrote, too: the values it compares them with guide the fuzzers.
-# COMPONENT: what strangers ask find_package for to have it, where it needs packages that the other rooms do not.
-function(motionrack_room name)
-  cmake_parse_arguments(ROOM "FAST;READS_FILES" "COMPONENT" "SOURCES;DEPS;LIBRARIES;HEADERS_OF" ${ARGN})
-  if(ROOM_SOURCES)
-    add_library(motionrack_${name} STATIC ${ROOM_SOURCES})
-    target_link_libraries(motionrack_${name} PUBLIC motionrack_flags ${ROOM_DEPS} PRIVATE ${ROOM_LIBRARIES})
-    if(NOT ROOM_FAST)
+# COMPONENT: what strangers ask find_package for to have it, where it needs packages that the other modules do not.
+function(motionrack_module name)
+  cmake_parse_arguments(MODULE "FAST;READS_FILES" "COMPONENT" "SOURCES;DEPS;LIBRARIES;HEADERS_OF" ${ARGN})
+  if(MODULE_SOURCES)
+    add_library(motionrack_${name} STATIC ${MODULE_SOURCES})
+    target_link_libraries(motionrack_${name} PUBLIC motionrack_flags ${MODULE_DEPS} PRIVATE ${MODULE_LIBRARIES})
+    if(NOT MODULE_FAST)
       motionrack_optimise(motionrack_${name} -O2)
       motionrack_harden(motionrack_${name})
-    elseif(MOTIONRACK_FUZZ AND NOT ROOM_READS_FILES)
+    elseif(MOTIONRACK_FUZZ AND NOT MODULE_READS_FILES)
       target_compile_options(motionrack_${name} PRIVATE -fno-sanitize-coverage=trace-cmp)
     endif()
-    foreach(target IN LISTS ROOM_HEADERS_OF)
+    foreach(target IN LISTS MODULE_HEADERS_OF)
       target_link_libraries(motionrack_${name} PRIVATE $<BUILD_INTERFACE:${target}>)
     endforeach()
   else()
     add_library(motionrack_${name} INTERFACE)
-    target_link_libraries(motionrack_${name} INTERFACE motionrack_flags ${ROOM_DEPS})
+    target_link_libraries(motionrack_${name} INTERFACE motionrack_flags ${MODULE_DEPS})
   endif()
   add_library(motionrack::${name} ALIAS motionrack_${name})
   set_target_properties(motionrack_${name} PROPERTIES EXPORT_NAME ${name})
-  if(ROOM_COMPONENT)
-    install(TARGETS motionrack_${name} EXPORT motionrack-${ROOM_COMPONENT}
+  if(MODULE_COMPONENT)
+    install(TARGETS motionrack_${name} EXPORT motionrack-${MODULE_COMPONENT}
             ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
   else()
-    set_property(GLOBAL APPEND PROPERTY motionrack_rooms motionrack_${name})
+    set_property(GLOBAL APPEND PROPERTY motionrack_modules motionrack_${name})
   endif()
 endfunction()
 
