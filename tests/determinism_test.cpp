@@ -47,13 +47,13 @@ History run(const std::string& program, const std::string& vcd = {}) {
 }
 
 // tests/determinism/matrix checks the same with other compilers, levels and CPUs.
-TEST(Determinism, ExamplesHaveTheHistoryOfEveryOtherBuild) {
+TEST(Determinism, ExamplesHaveTheEventTraceOfEveryOtherBuild) {
     EXPECT_EQ(example_histories(source_root), text_of(source_root / "tests/golden/trace/examples.txt"))
         << "If the machine was meant to do something else than before, put the new lines into "
            "tests/golden/trace/examples.txt.";
 }
 
-TEST(Determinism, RacksHaveTheHistoryOfEveryOtherBuild) {
+TEST(Determinism, RacksHaveTheEventTraceOfEveryOtherBuild) {
     EXPECT_EQ(rack_histories(source_root), text_of(source_root / "tests/golden/trace/racks.txt"))
         << "If the machine was meant to do something else than before, put the new lines into "
            "tests/golden/trace/racks.txt.";
@@ -77,7 +77,7 @@ TEST(Determinism, RunsRacksOfOneProcessIndependently) {
     EXPECT_NE(alone[0].outcome.trace_hash, alone[1].outcome.trace_hash);
 }
 
-TEST(Determinism, WatchingEveryWireDoesNotDisturb) {
+TEST(Determinism, WatchingEveryWireDoesNotChangeTheEventTrace) {
     const std::string program = "G21 G90 F1800\nG1 X6 Y4 Z78 A10\nG2 X8 Y6 I2 J0\nG0 X0 Y0 Z80 A0\nM2\n";
     const fs::path file = fs::temp_directory_path() / fmt::format("motionrack_determinism_{}.vcd", ::getpid());
     const History unseen = run(program), watched = run(program, file.string());

@@ -10,7 +10,7 @@ using testing::HasSubstr;
 
 class DocsCommand : public InFolder {};
 
-TEST_F(DocsCommand, RefusesWithoutASiteAndStatesHowToGetOne) {
+TEST_F(DocsCommand, WithoutASiteReportsHowToInstallOne) {
     const Ran ran = motionrack("docs --folder nowhere");
     EXPECT_EQ(ran.code, 5);
     EXPECT_THAT(ran.out, HasSubstr("The documentation was not found in nowhere. Nothing was served."));

@@ -85,7 +85,7 @@ TEST(Docs, TheGcodePageIsCurrent) {
         << "make it anew: motionrack describe gcode > docs/reference/gcode.md";
 }
 
-TEST(Docs, LinksLeadSomewhere) {
+TEST(Docs, LinksHaveTargets) {
     const std::regex link(R"(\]\(([^)#]*)(#([^)]*))?\))");
     int links = 0;
     for (const fs::path& page : pages()) {

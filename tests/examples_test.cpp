@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Folders, Example,
                          testing::Values("01_first_move", "02_part", "03_helix", "04_s_curve", "05_limit_hit",
                                          "08_homing", "11_carriage", "16_probe"));
 
-TEST(Examples, TheLibraryExampleEndsWhereItsProgramSays) {
+TEST(Examples, TheLibraryExampleEndsAtTheTargetOfItsProgram) {
     const Ran ran = run(examples, MOTIONRACK_LIBRARY_EXAMPLE);
     EXPECT_EQ(ran.code, 0);
     EXPECT_NE(ran.out.find("X 20.0000 mm"), std::string::npos) << ran.out;
@@ -171,7 +171,7 @@ Ran run_with(const std::string& options) {
                              options + " 2>&1");
 }
 
-TEST(CommandLine, FaultsHappenAtTheirInstantAndEventsAreWritten) {
+TEST(CommandLine, FaultsAreInjectedAtTheirInstantAndEventsAreWritten) {
     const auto events = std::filesystem::temp_directory_path() / "motionrack_events_test.csv";
     const Ran stopped = run_with("--fault X.limit_plus=0@0.25s --events '" + events.string() + "'");
     EXPECT_EQ(stopped.code, 4);
@@ -189,7 +189,7 @@ TEST(CommandLine, FaultsHappenAtTheirInstantAndEventsAreWritten) {
 }
 
 /// The headline of a report: green, or red with exit code 4.
-TEST(CommandLine, ARunThatIsNotGoodEndsWithCode4AndARedHeadline) {
+TEST(CommandLine, AFailedRunEndsWithCode4AndARedHeading) {
     const auto page = std::filesystem::temp_directory_path() / "motionrack_headline_test.html";
     const auto run_to_page = [&](const std::string& options) {
         std::filesystem::remove(page);
@@ -212,7 +212,7 @@ TEST(CommandLine, ARunThatIsNotGoodEndsWithCode4AndARedHeadline) {
     std::filesystem::remove(page);
 }
 
-TEST(CommandLine, AStopDrivesNoFurtherLine) {
+TEST(CommandLine, AStopExecutesNoFurtherLine) {
     const auto folder = std::filesystem::temp_directory_path() / "motionrack_stop_test";
     std::filesystem::create_directories(folder);
     const Ran stopped = run(folder, "printf 'G21 G90 F600\nG1 X100\nG1 Y50\nM2\n' | " MOTIONRACK_PROGRAM
@@ -229,7 +229,7 @@ TEST(CommandLine, AStopDrivesNoFurtherLine) {
     std::filesystem::remove_all(folder);
 }
 
-TEST(CommandLine, FaultsThatCannotHappenAreRefusedBeforeAnythingMoves) {
+TEST(CommandLine, ImpossibleFaultsAreRejectedBeforeAnythingMoves) {
     struct Case {
         const char* option;
         const char* said;

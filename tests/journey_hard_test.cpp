@@ -51,7 +51,7 @@ TEST(Journey, AWrongLineLaterEndsTheStreamWhereTheLineBeforeItEnds) {
 }
 
 /// Requests a stop in the middle of an arc and compares the final positions with the circle.
-TEST(Journey, AStopInAnArcComesToRestOnTheArc) {
+TEST(Journey, AStopInAnArcDeceleratesToAStopOnTheArc) {
     std::atomic<bool> stop{false};
     JobSettings settings = settings_of("G21 G90 F1800\nG0 X100 Y100\nG2 X100 Y100 I30 J0 P3\nM2\n");
     settings.stop = &stop;
@@ -92,7 +92,7 @@ void act_out(Rack& rack, const std::vector<sim::LoggedInput>& inputs, Instant fr
     });
 }
 
-TEST(Journey, RewoundInTheMiddleItRunsToTheSameEnd) {
+TEST(Journey, RestoredInTheMiddleItEndsIdentically) {
     const JobSettings settings =
         settings_of("G21 G90 F2400\nG1 X20 Y10\nG3 X30 Y20 I0 J10\nG2 X30 Y20 I6 J0 Z75\nG0 X0 Y0\nM2\n");
     Running original(router(), settings);

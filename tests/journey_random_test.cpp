@@ -62,7 +62,7 @@ TEST_P(JourneyAtRandom, TinyMovesEndExactlyStayOnTheirPathAndKeepVelocityAndAcce
     EXPECT_GT(drive_random(GetParam(), test::ProgramSize::tiny), 0.25);
 }
 
-TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLimits) {
+TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyStopOnTheirPathAndKeepTheLimits) {
     const std::uint64_t first = seed_from_environment(), everyday = thorough() ? 40 : 20,
                         count = cases("MOTIONRACK_PROGRAMS", everyday);
     const RackConfig config = router(GetParam());

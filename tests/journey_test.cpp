@@ -17,13 +17,13 @@ TEST(Journey, FourAxesTogetherEndExactly) {
     EXPECT_LE(done.outcome.max_deviation.mm, 0.01);
 }
 
-TEST(Journey, ASteeredAxisThatIsThenInterpolatedEndsExactly) {
+TEST(Journey, AnAuxiliaryAxisThatIsThenInterpolatedEndsExactly) {
     const Done done = drive(router(), "G21 G90\nG1 X4 Y3 Z75 A20 F600\nG1 X0 A0\nM2\n");
     expect_exact(done.outcome, 0);
     EXPECT_DOUBLE_EQ(done.outcome.axes[3].actual_end, 0.0);
 }
 
-TEST(Journey, ASteeredAxisThatTurnsRoundEndsExactly) {
+TEST(Journey, AnAuxiliaryAxisThatReversesEndsExactly) {
     const Done done =
         drive(router(),
               "G21 G90\nG0 X150 Y100 Z40\nG2 X149.169 Y101.298 Z50.522 A-5.12 R1.281 F2032\nG1 X75.358 Y82.564 A-89.69 "
@@ -33,7 +33,7 @@ TEST(Journey, ASteeredAxisThatTurnsRoundEndsExactly) {
     EXPECT_NEAR(done.outcome.axes[3].actual_end, 67.19, 1e-9);
 }
 
-TEST(Journey, AHelixBeforeACornerSlowsDownForIt) {
+TEST(Journey, AHelixBeforeACornerDeceleratesForIt) {
     const Done done = drive(router(),
                             "G21 G90 G64 P0.005\nG0 X150 Y100 Z40\nG2 X120 Y110 Z30 R40 F4000\nG1 X150 Y100 F4000\nG3 "
                             "X140 Y90 Z35 R20\nG1 X160\nM2\n");
@@ -41,7 +41,7 @@ TEST(Journey, AHelixBeforeACornerSlowsDownForIt) {
     EXPECT_LE(done.outcome.max_deviation.mm, 0.007);
 }
 
-TEST(Journey, TheSameProgramGivesTheSameHistory) {
+TEST(Journey, TheSameProgramGivesTheSameEventTrace) {
     const std::string program = "G21 G90 F2400\nG1 X20 Y10\nG3 X30 Y20 I0 J10\nG1 X0 Y0 Z70\nM2\n";
     const Done first = drive(router(), program), second = drive(router(), program);
     EXPECT_EQ(first.outcome.trace_hash, second.outcome.trace_hash);
@@ -88,7 +88,7 @@ TEST(Journey, AWeakMotorLosesStepsAndTheJobReportsIt) {
     EXPECT_EQ(done.outcome.axes[0].pulse_position, 128'000) << "the card believes it is there";
 }
 
-TEST(Journey, AStopComesToRestOnThePath) {
+TEST(Journey, AStopDeceleratesToAStopOnThePath) {
     const std::atomic<bool> stop{true};
     const Done done = drive(router(), "G21 G90\nG1 X100 Y50 F3000\nM2\n", &stop);
     ASSERT_FALSE(done.outcome.ended);

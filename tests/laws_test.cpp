@@ -41,7 +41,7 @@ std::vector<std::string> lines_of(const fs::path& path) {
 
 /// Returns the module of a file: "cards/mcx314/chip/chip.hpp" -> "mcx314/chip"; the map and arithmetic of a card are in
 /// "mcx314/map".
-std::string room_of(const std::string& path) {
+std::string module_of(const std::string& path) {
     if (path.find("/test/") != std::string::npos) return "test";
     if (path.rfind("cards/", 0) == 0) {
         const std::size_t card = path.find('/', 6);
@@ -146,16 +146,16 @@ const std::map<std::string, std::set<std::string>> may_include = {
       "grating_bus/driver", "rtc5/model"}},
 };
 
-TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {
+TEST(Laws, ModulesIncludeOnlyTheirAllowedModules) {
     const std::regex include(R"(#include <motionrack/([^>]+)>)");
     for (const fs::path& path : sources("motionrack")) {
-        const std::string own = room_of(fs::relative(path, source_root / "motionrack").generic_string());
+        const std::string own = module_of(fs::relative(path, source_root / "motionrack").generic_string());
         if (own == "test") continue;
-        ASSERT_TRUE(may_include.count(own)) << path << " is in no known room";
+        ASSERT_TRUE(may_include.count(own)) << path << " is in an unknown module";
         for (const std::string& line : lines_of(path)) {
             std::smatch match;
             if (!std::regex_search(line, match, include)) continue;
-            const std::string other = room_of(match[1]);
+            const std::string other = module_of(match[1]);
             EXPECT_TRUE(other == own || may_include.at(own).count(other)) << path << " includes " << match[1];
         }
     }
@@ -163,7 +163,7 @@ TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {
         for (const std::string& line : lines_of(path)) {
             std::smatch match;
             if (!std::regex_search(line, match, include)) continue;
-            EXPECT_TRUE(may_include.at("python").count(room_of(match[1]))) << path << " includes " << match[1];
+            EXPECT_TRUE(may_include.at("python").count(module_of(match[1]))) << path << " includes " << match[1];
         }
 }
 
@@ -173,7 +173,7 @@ TEST(Laws, FilesAreSmall) {
     for (const fs::path& path : page_sources()) EXPECT_LE(lines_of(path).size(), 400u) << path;
 }
 
-TEST(Laws, DeterministicRoomsKnowNoWallClockAndNoLuck) {
+TEST(Laws, DeterministicModulesUseNoWallClockRandOrLibm) {
     const std::regex forbidden(R"(steady_clock|system_clock|sleep_for|usleep|std::rand\b|fast-math|march=native|)"
                                R"(std::sin\(|std::cos\(|std::atan2|std::pow\(|std::exp\()");
     for (const char* folder : {"motionrack/base", "motionrack/sim", "motionrack/cards", "motionrack/control"})
@@ -184,7 +184,7 @@ TEST(Laws, DeterministicRoomsKnowNoWallClockAndNoLuck) {
         }
 }
 
-TEST(Laws, NothingIsLeftForLater) {
+TEST(Laws, SourcesHaveNoOpenTodos) {
     const std::regex later(std::string("TO") + "DO|FIX" + "ME");
     for (const char* folder : {"motionrack", "python", "tests", "bench", "examples"})
         for (const fs::path& path : sources(folder))

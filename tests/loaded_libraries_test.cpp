@@ -40,13 +40,13 @@ TEST_F(LoadedLibraries, LoadsOnlyTheLibrariesThatItNeeds) {
     }
 }
 
-TEST_F(LoadedLibraries, LoadsThatForRecordingsOnceOneIsMade) {
+TEST_F(LoadedLibraries, LoadsTheRecordingLibraryOnFirstUse) {
     EXPECT_TRUE(
         has(libraries_of("run examples/01_first_move/first_move.ngc --no-report --record first.h5"), "libhdf5"));
     EXPECT_TRUE(has(libraries_of("report first.h5"), "libhdf5"));
 }
 
-TEST_F(LoadedLibraries, LoadsThatForPicturesOnceOneIsAskedFor) {
+TEST_F(LoadedLibraries, LoadsTheImageLibraryOnFirstUse) {
     const std::string job = "mark examples/marking/square.toml --picture ";
     EXPECT_FALSE(has(libraries_of(job + "square.svg"), "librsvg"));
     EXPECT_TRUE(has(libraries_of(job + "square.png"), "librsvg"));

@@ -177,7 +177,7 @@ TEST_F(MarkCommand, ReportsBeforeTheRunThatAFileCannotBeWritten) {
     EXPECT_THAT(kind.out, HasSubstr("p.gif is neither .svg nor .png"));
 }
 
-TEST_F(MarkCommand, OverwritesNeitherWhatItReadsNorAnotherOutput) {
+TEST_F(MarkCommand, OverwritesNeitherItsInputsNorAnotherOutput) {
     write("mark.svg", "<svg width='10mm' height='10mm' viewBox='0 0 10 10'><path d='M0 0L9 9'/></svg>");
     write("job.toml", "[drawing]\nsvg = 'mark.svg'\n");
     for (const char* outputs : {"", "--picture mark.svg", "--picture ''  --report job.toml",

@@ -62,7 +62,7 @@ TEST_F(PlanCommand, DrawsThePicturesOfItsPage) {
     }
 }
 
-TEST_F(PlanCommand, DrawsAnythingThatCanBePlanned) {
+TEST_F(PlanCommand, DrawsEveryProgramThatCanBePlanned) {
     write("rotary.ngc", "G21 G90 G94\nG1 A90 F600\nG4 P0.5\nG1 A0\n");
     write("dwell.ngc", "G4 P1\n");
     write("helix.ngc", "G21 G90 G64 P0.01\nG0 X50 Y50 Z0\nG3 X50 Y50 I10 Z20 F1200\n");
@@ -80,14 +80,14 @@ TEST_F(PlanCommand, DrawsAnythingThatCanBePlanned) {
     EXPECT_NE(motionrack("plan rotary.ngc --picture no/such/folder.svg").code, 0);
 }
 
-TEST_F(PlanCommand, OfNothingTakesNoTime) {
+TEST_F(PlanCommand, OfAnEmptyPathTakesNoTime) {
     write("nothing.ngc", "G21\nM2\n");
     const Ran ran = motionrack("plan nothing.ngc --json");
     ASSERT_EQ(ran.code, 0) << ran.out;
     EXPECT_EQ(nlohmann::json::parse(ran.out)["jerk_limited"]["duration_s"], 0);
 }
 
-TEST_F(PlanCommand, RefusesWhatCannotBePlannedWithTheReason) {
+TEST_F(PlanCommand, RejectsUnplannableProgramsWithTheReason) {
     EXPECT_EQ(motionrack("plan nothere.ngc").code, 5);
     write("bad.ngc", "G21\nG1 X1\nG999\n");
     const Ran bad = motionrack("plan bad.ngc");

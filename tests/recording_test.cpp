@@ -133,7 +133,7 @@ TEST_F(RecordedRun, HasThePulsesOfTheWavesTickForTick) {
     EXPECT_EQ(steps, edges);
 }
 
-TEST_F(RecordedRun, IsNotDisturbedByItsRecording) {
+TEST_F(RecordedRun, IsTheSameWithAndWithoutItsRecording) {
     const JobOutcome seen = record(request_for(program), "a.h5"), unseen = record(request_for(program), "");
     EXPECT_EQ(seen.time, unseen.time);
     EXPECT_EQ(seen.max_deviation.mm, unseen.max_deviation.mm);
@@ -144,12 +144,12 @@ TEST_F(RecordedRun, IsNotDisturbedByItsRecording) {
     }
 }
 
-TEST_F(RecordedRun, IsTheSameAgain) {
+TEST_F(RecordedRun, IsIdenticalWhenReplayed) {
     record(request_for(program), "a.h5");
     expect_same_again("a.h5");
 }
 
-TEST_F(RecordedRun, IsTheSameAgainWithHoldsOverridesAndFaults) {
+TEST_F(RecordedRun, IsIdenticalWhenReplayedWithHoldsOverridesAndFaults) {
     for (const char* profile : {"trapezoid", "jerk_limited"}) {
         const JobRequest request =
             request_for(program, {"X.motor.push=64@0.9s", "Y.encoder.broken_a@1.1s", "Y.encoder.broken_a=0@1.105s"},
@@ -171,14 +171,14 @@ TEST_F(RecordedRun, IsTheSameAgainWithHoldsOverridesAndFaults) {
     }
 }
 
-TEST_F(RecordedRun, IsTheSameAgainWhenTheMachineStoppedIt) {
+TEST_F(RecordedRun, IsIdenticalWhenReplayedAfterAStopByTheMachine) {
     const JobOutcome outcome = record(request_for(program, {"X.limit_plus=0@0.7s"}), "a.h5");
     ASSERT_FALSE(outcome.ended);
     EXPECT_EQ(outcome.ended.error().kind, ErrorKind::machine);
     expect_same_again("a.h5");
 }
 
-TEST_F(RecordedRun, IsTheSameAgainAfterAStop) {
+TEST_F(RecordedRun, IsIdenticalWhenReplayedAfterAStopCommand) {
     for (const double stop_s : {0.2, 0.63}) {
         for (const bool live : {false, true}) {
             const JobRequest request =
@@ -194,7 +194,7 @@ TEST_F(RecordedRun, IsTheSameAgainAfterAStop) {
     }
 }
 
-TEST_F(RecordedRun, ThatWasKilledHasAllUpToSomeInstant) {
+TEST_F(RecordedRun, OfAKilledProgramIsCompleteUpToAnInstant) {
     std::string longer = "G21 G90 F1200\n";
     for (int i = 0; i < 20; ++i) longer += "G1 X30 Y10\nG1 X1 Y1\n";
     const JobRequest request = request_for(longer + "M2\n");
@@ -244,7 +244,7 @@ TEST_F(RecordedRun, RejectsUnknownCommands) {
 
 class Recordings : public InFolder {};
 
-TEST_F(Recordings, MakeThePageThatTheRunMade) {
+TEST_F(Recordings, GiveTheReportOfTheRun) {
     const Ran ran = motionrack(
         "run examples/02_part/part.ngc -q --record a.h5 --report run.html --csv run.csv --events run_events.csv");
     ASSERT_EQ(ran.code, 0) << ran.out;
@@ -284,7 +284,7 @@ TEST_F(Recordings, AreComparedAndRunAgainWithTheirExitCodes) {
     EXPECT_EQ(motionrack("run --record /nowhere/a.h5 -q").code, 5);
 }
 
-TEST_F(Recordings, NeverGoOverAFileThatIsRead) {
+TEST_F(Recordings, NeverOverwriteAnInputFile) {
     write("a.ngc", "G1 X1 F600\n");
     write("r.toml", *rack::rack_template("router"));
     write("a.ngc.incomplete", "G1 X2 F600\n");

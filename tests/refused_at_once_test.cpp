@@ -59,7 +59,7 @@ TEST_F(EmptyProgram, IsRefusedByEachCommand) {
     EXPECT_EQ(motionrack("run units.ngc -q --no-report").code, 0) << "it says what is to be set";
 }
 
-TEST_F(DrawingOutsideTheField, IsRefusedBeforeAnythingIsMarked) {
+TEST_F(DrawingOutsideTheField, IsRejectedBeforeAnythingIsMarked) {
     write("line.svg", "<svg width='10mm' height='10mm' viewBox='0 0 10 10'><path d='M 0 0 H 10'/></svg>");
     write("far.svg", "<svg width='10mm' height='10mm' viewBox='0 0 10 10'><path d='M 0 0 H 1e8'/></svg>");
     const auto expect_refusal = [&](const std::string& drawing, int code, const char* sentence) {
@@ -85,7 +85,7 @@ class ServedMachine : public InFolder {
     }
 };
 
-TEST_F(ServedMachine, RefusesWhatCannotBeMeantInTheAnswer) {
+TEST_F(ServedMachine, RejectsImplausibleCommandsInTheAnswer) {
     Served served(
         {(folder / "one.toml").string(), "--port", "0", "--no-auth", "--users", (folder / "users.json").string()});
     EXPECT_TRUE(served.post("take_control").contains("done"));

@@ -89,7 +89,7 @@ TEST_F(RackServer, LosesNothingAcknowledgedInAHundredKills) {
     }
 }
 
-TEST_F(RackServer, KilledWhileItStoodKnowsIt) {
+TEST_F(RackServer, KilledAtStandstillKeepsItsPositionsAsKnown) {
     {
         Served served(arguments());
         make_ready(served);
@@ -104,7 +104,7 @@ TEST_F(RackServer, KilledWhileItStoodKnowsIt) {
     EXPECT_EQ(entries("command").size(), 3u);
 }
 
-TEST_F(RackServer, StandsWhereItStoodAfterAnEndThatWasAskedFor) {
+TEST_F(RackServer, KeepsItsPositionsAfterARequestedEnd) {
     {
         Served served(arguments());
         make_ready(served);

@@ -27,7 +27,7 @@ class ServedProcess : public InFolder {
     }
 };
 
-TEST_F(ServedProcess, ServesOnWhileItsOutputIsNotRead) {
+TEST_F(ServedProcess, ContinuesWhileItsOutputIsNotRead) {
     Served served(arguments());
     served.fill_output();
     EXPECT_TRUE(pair(served).contains("token"));
@@ -36,7 +36,7 @@ TEST_F(ServedProcess, ServesOnWhileItsOutputIsNotRead) {
     EXPECT_EQ(served.end(SIGTERM), 0);
 }
 
-TEST_F(ServedProcess, ServesOnWhenTheReaderOfItsOutputGoes) {
+TEST_F(ServedProcess, ContinuesWhenTheReaderOfItsOutputCloses) {
     Served served(arguments());
     served.close_output();
     EXPECT_TRUE(pair(served).contains("token"));
@@ -44,12 +44,12 @@ TEST_F(ServedProcess, ServesOnWhenTheReaderOfItsOutputGoes) {
     EXPECT_EQ(served.end(SIGTERM), 0);
 }
 
-TEST_F(ServedProcess, BringsTheAxesToRestWhenItsTerminalIsClosed) {
+TEST_F(ServedProcess, StopsTheAxesWhenItsTerminalIsClosed) {
     Served served(arguments());
     EXPECT_EQ(served.end(SIGHUP), 0);
 }
 
-TEST_F(ServedProcess, OutlivesItsTerminalUnderNohup) {
+TEST_F(ServedProcess, ContinuesAfterItsTerminalClosesUnderNohup) {
     ::signal(SIGHUP, SIG_IGN);
     Served served(arguments());
     ::signal(SIGHUP, SIG_DFL);

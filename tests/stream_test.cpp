@@ -174,7 +174,7 @@ TEST_P(StreamExecutorDisturbedAtRandom, EndsExactlyOnItsPathInTinyMoves) {
     disturb_many(GetParam(), test::ProgramSize::tiny);
 }
 
-TEST_P(StreamExecutorTest, HeldStandsStillOnItsPathAndContinuesFromThere) {
+TEST_P(StreamExecutorTest, StopsOnItsPathOnFeedHoldAndResumesFromThere) {
     Watched w(router(GetParam()));
     bool asked = false;
     double held_at = -1;
@@ -197,7 +197,7 @@ TEST_P(StreamExecutorTest, HeldStandsStillOnItsPathAndContinuesFromThere) {
     w.expect_limits();
 }
 
-TEST_P(StreamExecutorTest, HeldOnAnArcBeforeATurnOfARotaryAxisEndsTheArc) {
+TEST_P(StreamExecutorTest, FeedHoldOnAnArcBeforeARotaryMoveEndsTheArc) {
     const std::string program = "G21 G90 G61\nG3 X2 Y2 I0 J2 F600\nG1 A20 F3000\nG1 X0 F600\n";
     for (double at = 0.02; at < 0.5; at += 0.02) {
         SCOPED_TRACE(at);
@@ -230,7 +230,7 @@ TEST_P(StreamExecutorTest, StoppedDiscardsTheRestAndTheNextLineBeginsAtTheStopPo
     w.expect_limits();
 }
 
-TEST_P(StreamExecutorTest, FeelsAnOverrideWithinATenthOfASecondOrSo) {
+TEST_P(StreamExecutorTest, AppliesAnOverrideWithinAboutATenthOfASecond) {
     Watched w(router(GetParam()));
     double asked_at = -1, slow_at = -1;
     w.on_slice = [&] {
@@ -258,7 +258,7 @@ double seconds_of(Watched& w, const std::string& program) {
     return w.seconds() - begun;
 }
 
-TEST_P(StreamExecutorTest, GoesAsWrittenWhileM49TakesTheOverridesAway) {
+TEST_P(StreamExecutorTest, IgnoresOverridesAfterM49) {
     const auto seconds = [](const std::string& program, double feed, double rapid) {
         Watched w(router(GetParam()));
         w.stream->set_overrides(feed, rapid);
@@ -332,7 +332,7 @@ TEST_P(StreamExecutorTest, PausesAtM0UntilAResume) {
     EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 20, 1e-9);
 }
 
-TEST_P(StreamExecutorTest, InSingleStepPausesAfterEachLine) {
+TEST_P(StreamExecutorTest, InSingleBlockPausesAfterEachLine) {
     Watched w(router(GetParam()));
     w.stream->set_single_block(true);
     std::vector<double> stood;
@@ -345,7 +345,7 @@ TEST_P(StreamExecutorTest, InSingleStepPausesAfterEachLine) {
     EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 30, 1e-9);
 }
 
-TEST_P(StreamExecutorTest, WhoseSenderIsSlowStandsBetweenTheLinesAndLosesNothing) {
+TEST_P(StreamExecutorTest, WithASlowSenderStopsBetweenLinesAndLosesNothing) {
     Watched w(router(GetParam()));
     const std::vector<std::string> lines = lines_of("G21 G90 G64 P0.05 F3000\nG1 X10\nG1 X20 Y3\nG1 X30 Y0\n");
     for (std::size_t i = 0; i < lines.size(); ++i) {

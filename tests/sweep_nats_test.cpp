@@ -137,7 +137,7 @@ TEST_F(NatsSweep, IsTheSameTableThoughAWorkerIsKilledInTheMiddle) {
     EXPECT_THAT(said("one"), HasSubstr(" points done"));
 }
 
-TEST_F(NatsSweep, AWorkerThatStandsStillIsReplacedAndItsLateRowChangesNothing) {
+TEST_F(NatsSweep, AStoppedWorkerIsReplacedAndItsLateRowChangesNothing) {
     auto gather = gatherer();
     auto one = worker("one"), two = worker("two");
     while (gather->runs() && rows() < 10) {
@@ -152,7 +152,7 @@ TEST_F(NatsSweep, AWorkerThatStandsStillIsReplacedAndItsLateRowChangesNothing) {
     EXPECT_EQ(two->end(SIGINT), 130) << said("two");
 }
 
-TEST_F(NatsSweep, GathererAndServerMayBeKilledToo) {
+TEST_F(NatsSweep, CoordinatorAndServerMayBeKilled) {
     auto gather = gatherer();
     auto one = worker("one"), two = worker("two");
     while (gather->runs() && rows() < 10) {

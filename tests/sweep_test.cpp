@@ -206,7 +206,7 @@ TEST_F(SweepCommand, RejectsBadFilesWithTheirLocationBeforeAnythingRuns) {
     }
 }
 
-TEST_F(SweepCommand, RefusesWhatItsFilesHaveWrong) {
+TEST_F(SweepCommand, RejectsErrorsInItsFiles) {
     const auto refused = [&](const std::string& sweep, int code, const std::string& said) {
         write("bad.toml", sweep);
         const Ran ran = motionrack("sweep bad.toml -o out.csv");
@@ -242,7 +242,7 @@ TEST_F(SweepCommand, RefusesWhatItsFilesHaveWrong) {
     EXPECT_EQ(motionrack("sweep sweep.toml --jobs 0").code, 1);
 }
 
-TEST_F(SweepCommand, RowsTellWhatWentWrongInAPoint) {
+TEST_F(SweepCommand, RowsReportTheErrorOfAPoint) {
     // The travel of one point is too short for the program, which is a valid result.
     write("travel.toml",
           "[sweep]\nprogram = \"part.ngc\"\nrack = \"rack.toml\"\n[vary]\naxis.X.max_limit_mm = [100, "

@@ -21,7 +21,7 @@ class WaveCommands : public InFolder {
     }
 };
 
-TEST_F(WaveCommands, WriteFilesThatEveryReaderReadsWhole) {
+TEST_F(WaveCommands, WriteFilesThatEveryReaderReadsCompletely) {
     write("part.ngc", "G21 G90\nG1 X0.5 F600\nG1 X0.25\nM2\n");
     expect_read("frames examples/grating_bus/crate.toml --duration 0.0005 -q --vcd w.vcd");
     expect_read("run part.ngc --no-report -q --vcd w.vcd --signals 'X.*'");

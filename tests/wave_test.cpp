@@ -93,7 +93,7 @@ void look_on(Session& session) {
     EXPECT_TRUE(session.advance(1'000'000));
 }
 
-TEST(Waves, AreReadWholeByEveryReader) {
+TEST(Waves, AreReadCompletelyByEveryReader) {
     const std::string path =
         (std::filesystem::temp_directory_path() / ("motionrack_all_" + std::to_string(::getpid()) + ".vcd")).string();
     const RecordedRack recorded_racks[] = {

@@ -96,7 +96,7 @@ std::string tests_labelled(const std::string& label) {
     return out;
 }
 
-TEST(FaultCatalogue, HasNoRowThatNoTestRuns) {
+TEST(FaultCatalogue, HasATestForEveryRow) {
     const std::string tests = "\n" + tests_labelled("fault");
     std::set<std::string> names;
     for (const Case& one : all_cases()) {
@@ -126,7 +126,7 @@ std::string source_of(const std::string& test) {
     return {};
 }
 
-TEST(FaultCatalogue, HasTheWordsThatTestsOfOtherRoomsLookFor) {
+TEST(FaultCatalogue, HasTheWordsThatTestsOfOtherModulesExpect) {
     for (const Case& one : all_cases()) {
         if (one.fault.setup.by != "test") continue;
         const std::string source = source_of(one.point.test);

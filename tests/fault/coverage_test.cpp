@@ -90,7 +90,7 @@ std::string on_one_line(const std::string& text) {
     return out;
 }
 
-TEST(FaultCoverage, NamesTestsThatAreThere) {
+TEST(FaultCoverage, NamesExistingTests) {
     const std::string programs = on_one_line(texts_below("tests", {".cpp"}) + texts_below("motionrack", {".cpp"})),
                       pages = texts_below("hmi/test", {".mjs", ".ts", ".tsx"});
     const std::string of_page = "hmi: ";

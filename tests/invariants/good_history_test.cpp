@@ -6,7 +6,7 @@
 namespace motionrack::test {
 namespace {
 
-TEST(GoodHistory, OfRidesAndStopsHasNoFinding) {
+TEST(GoodHistory, OfMotionAndStopsHasNoFinding) {
     History h;
     h.begin();
     h.pass(0.5);
@@ -46,7 +46,7 @@ TEST(GoodHistory, MayEndPulsesAtOnceIfThatInvalidatesThePosition) {
     }
 }
 
-TEST(GoodHistory, MayBeginToMoveInThePictureInWhichAPositionIsDeclared) {
+TEST(GoodHistory, MayStartToMoveInTheSnapshotInWhichAPositionIsDeclared) {
     History h;
     h.order(Invariants::Order::position);
     h.counter_off = 500;
@@ -56,7 +56,7 @@ TEST(GoodHistory, MayBeginToMoveInThePictureInWhichAPositionIsDeclared) {
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;
 }
 
-TEST(GoodHistory, MayFindAHomeByTheEdgeOfASwitchThatIsMended) {
+TEST(GoodHistory, MayFindHomeByTheEdgeOfARepairedSwitch) {
     History h;
     search_beside(h, true);
     for (const Finding& one : h.findings()) ADD_FAILURE() << name_of(one.rule) << ": " << one.text;

@@ -187,7 +187,7 @@ class BrokenHistory : public testing::TestWithParam<Broken> {};
 INSTANTIATE_TEST_SUITE_P(Each, BrokenHistory, testing::ValuesIn(broken),
                          [](const auto& each) { return std::string(each.param.name); });
 
-TEST_P(BrokenHistory, IsFound) {
+TEST_P(BrokenHistory, IsReported) {
     History h;
     EXPECT_TRUE(h.findings().empty());
     GetParam().history(h);

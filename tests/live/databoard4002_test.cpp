@@ -73,7 +73,7 @@ TEST_F(LiveDataboard4002, MovesExactlyToItsTargets) {
     }
 }
 
-TEST_F(LiveDataboard4002, IsWokenByTheCardsInterrupt) {
+TEST_F(LiveDataboard4002, WaitsForTheInterruptOfTheCard) {
     ASSERT_TRUE(port->has_interrupt());
     const Instant from = port->now();
     const Result<void> moved = driver->move_to(100, whole_seconds(5), Waiting::interrupt);

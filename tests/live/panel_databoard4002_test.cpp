@@ -86,7 +86,7 @@ TEST_F(PanelOnADataBoard, StopsDuringAMoveThatAFunctionWaitsFor) {
     EXPECT_TRUE(alarm(other).is_null());
 }
 
-TEST_F(PanelOnADataBoard, StopsWhatDrivesWithTheServiceAndWithTheProgram) {
+TEST_F(PanelOnADataBoard, StopsMotionAtTheEndOfTheServiceAndOfTheProgram) {
     drive();
     end_service();
     until_stopped(*served);

@@ -81,7 +81,7 @@ TEST_F(PanelOnARealCard, StopsADriveWhileAFunctionWaits) {
     EXPECT_TRUE(alarm(other).is_null());
 }
 
-TEST_F(PanelOnARealCard, StopsWhatDrivesWithEachEndOfTheService) {
+TEST_F(PanelOnARealCard, StopsMotionAtEachEndOfTheService) {
     const std::vector<std::pair<const char*, json>> orders = {
         {"stop", json::object()},           {"service", {{"card", "bench"}, {"on", false}}},
         {"enable", {{"on", false}}},        {"release_control", json::object()},
@@ -103,7 +103,7 @@ TEST_F(PanelOnARealCard, StopsWhatDrivesWithEachEndOfTheService) {
     }
 }
 
-TEST_F(PanelOnARealCard, StopsTenSecondsAfterTheLastSignOfItsClient) {
+TEST_F(PanelOnARealCard, StopsTenSecondsAfterTheLastRequestOfItsClient) {
     drive_x();
     served->close();
     until("X stands", [&] { return drives() == 0; });
@@ -120,7 +120,7 @@ TEST_F(PanelOnARealCard, StopsWithTheProgram) {
     }
 }
 
-TEST_F(PanelOnARealCard, DrivesOnWhereTheProgramIsKilledUntilTheNextService) {
+TEST_F(PanelOnARealCard, KeepsDrivingAfterAKillOfTheProgramUntilTheNextService) {
     drive_x();
     EXPECT_EQ(served->end(SIGKILL), -SIGKILL);
     EXPECT_EQ(drives(), x_drives) << "nothing is left that could stop it";

@@ -92,7 +92,7 @@ TEST_F(LivePortInMemory, MakesTwoAccessesOfEightBitsHighByteFirst) {
     EXPECT_EQ(file_->as<std::uint8_t>(6), 0x12);
 }
 
-TEST_F(LivePortInMemory, OpeningTouchesNoRegister) {
+TEST_F(LivePortInMemory, OpeningAccessesNoRegister) {
     // Closes a mapping that was never read; the trap would have detected a read.
     const auto port = open("");
     ASSERT_TRUE(port);

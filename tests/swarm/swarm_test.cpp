@@ -27,7 +27,7 @@ constexpr std::uint64_t parts = 20, parts_of_a_shard = 5;
 class Swarm : public testing::TestWithParam<std::uint64_t> {};
 INSTANTIATE_TEST_SUITE_P(Part, Swarm, testing::Range<std::uint64_t>(0, parts));
 
-TEST_P(Swarm, KeepsTheLawsOfEveryRun) {
+TEST_P(Swarm, KeepsTheInvariantsOfEveryRun) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_MACHINES", 2'000);
     const std::chrono::duration<double> time{static_cast<double>(from_environment("MOTIONRACK_SWARM_SECONDS", 0)) /
                                              parts_of_a_shard};
@@ -51,7 +51,7 @@ TEST_P(Swarm, KeepsTheLawsOfEveryRun) {
     EXPECT_GT(faults, 0);
 }
 
-TEST(SwarmSeed, HasTheSameHistoryTwice) {
+TEST(SwarmSeed, GivesTheSameEventTraceTwice) {
     const std::uint64_t first = seed_from_environment();
     for (std::uint64_t seed = first; seed < first + 20; ++seed) {
         const SeedEnd once = driven(seed), again = driven(seed);

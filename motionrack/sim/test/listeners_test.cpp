@@ -8,7 +8,7 @@
 namespace motionrack::sim {
 namespace {
 
-TEST(Interval, IsLeftAtTheFirstPositionBeyondItsEnds) {
+TEST(Interval, ReportsASideAsLeftAtTheFirstPositionOfTheNextSide) {
     constexpr Interval cam{10, 20};
     for (const auto& [from, last, next] :
          {std::array<std::int64_t, 3>{5, 9, 10}, {10, 20, 21}, {20, 10, 9}, {30, 21, 20}}) {
