@@ -43,7 +43,7 @@ def results_of(**sections) -> dict:
 
 
 def build_of(wall_s: float = 200.0, cores: int = 2) -> dict:
-    """A build of twelve compilations: room 0 is the dearest, room 11 takes the most memory."""
+    """A build of twelve compilations: module 0 is the dearest, module 11 takes the most memory."""
     return {
         "machine": {"cpu": "C", "cores": cores, "compiler": "c++ 12", "day": "2000-01-02", "version": "1", "load": 0.3},
         "ccache": False,

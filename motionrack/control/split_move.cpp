@@ -22,7 +22,7 @@ struct WeighedPart {
     double weight = 0;
 };
 
-/// By the axes beside the plane of an arc.
+/// Finds the position on an arc by the axes outside its plane, weighted by their pulses.
 WeighedPart part_beside_plane(const Geometry& path, const Point& position, const PulsesPerUnit& pulses) {
     WeighedPart out;
     for (std::size_t i = 0; i < position.size(); ++i) {
@@ -35,8 +35,8 @@ WeighedPart part_beside_plane(const Geometry& path, const Point& position, const
     return out;
 }
 
-/// By the angle in the plane, and in proportion to the pulses by the other axes: where a helix is steep its angle tells
-/// little.
+/// Finds the path length on an arc: by the angle in its plane and by the other axes, weighted by their pulses. On a
+/// steep helix the angle alone is inaccurate.
 double length_on_arc(const Geometry& path, const Point& position, const PulsesPerUnit& pulses) {
     const double x0 = path.start[path.first] - path.centre_first, y0 = path.start[path.second] - path.centre_second;
     const double x = position[path.first] - path.centre_first, y = position[path.second] - path.centre_second;

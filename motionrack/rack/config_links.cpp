@@ -181,7 +181,7 @@ class LinkResolver {
             const TextPosition location = location_of_(input);
             if (location != TextPosition{}) return problems_.error(location, std::move(message));
         }
-        // Only wires of the default rule: two axes on one channel, already reported.
+        // The file names none of these inputs, so the default rule wired two axes to one channel: already reported.
         if (!problems_.any_errors()) problems_.error({}, std::move(message));
     }
 

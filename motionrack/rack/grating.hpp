@@ -13,7 +13,7 @@ namespace motionrack::rack {
 /// gives the reason).
 std::vector<int> wanted_scales(const GratingBusSettings& card);
 
-/// `first`: the first card of its kind in the rack.
+/// Converts a card of the rack file. `first`: it is the first card of its kind in the rack.
 grating_bus::CardSettings grating_settings(const RackCard& card, bool first);
 grating_bus::DecoderSettings decoder_settings(const RackCard& card);
 

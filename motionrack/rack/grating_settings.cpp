@@ -110,8 +110,9 @@ std::optional<CardFlaw> grating_bus_flaw(const RackCard& card, std::span<const R
         if (own.period != its.period)
             return CardFlaw{
                 "period_us",
-                fmt::format("Card {} has a period of {} us and card {} one of {} us; a bus has one.", other.name,
-                            other.grating_bus.period_us, card.name, card.grating_bus.period_us)};
+                fmt::format(
+                    "Card {} has a period of {} us and card {} one of {} us; all cards of a bus must have the same.",
+                    other.name, other.grating_bus.period_us, card.name, card.grating_bus.period_us)};
     }
     return std::nullopt;
 }

@@ -107,9 +107,9 @@ class LivePort:
     def now(self) -> float:
         """Seconds of the computer's clock since it was opened. Refused once it was closed."""
     def read(self, offset: int) -> int:
-        """One access, with all effects, at the offset of a register."""
+        """Reads a register at its offset, with all side effects."""
     def write(self, offset: int, value: int) -> None:
-        """One access, with all effects, at the offset of a register; value 0 to 65535, or to 255 at a port."""
+        """Writes a register at its offset, with all side effects; value 0 to 65535, or 0 to 255 at a byte port."""
     def view(self, clearing: bool) -> str:
         """Describes the value of every register."""
     def wait_interrupt(self, timeout: float) -> bool:
@@ -1363,7 +1363,7 @@ class Rtc5:
     def get_io_status(self) -> int:
         """The 16 digital outputs. Takes the time of a query. Source: the maker's header of the RTC5 of 2013."""
     def simulate_encoder(self, EncoderNo: int) -> None:
-        """0: none; 1, 2, 3: encoder 0, 1, both count 1000000 counts/s by themselves. EncoderNo 0 to 3. Refused out of range; nothing is changed. Source: the RTC5 manual 1.10 d (German), page 198."""
+        """Simulates encoder 0 (1), encoder 1 (2) or both (3) at 1000000 counts/s; 0 ends it. EncoderNo 0 to 3. Refused out of range; nothing is changed. Source: the RTC5 manual 1.10 d (German), page 198."""
     def read_encoder(self) -> tuple[int, int, int, int]:
         """Counts that store_encoder kept: encoder 0 and 1 of Pos 0, then of Pos 1. Takes the time of a query. Source: the maker's header of the RTC5 of 2013."""
     def set_rot_center(self, X: int, Y: int) -> None:

@@ -17,9 +17,9 @@ void bind_live(py::module_& m) {
         .def(
             "now", [](LiveCard& card) { return to_seconds(card.now()); },
             "Seconds of the computer's clock since it was opened. Refused once it was closed.")
-        .def("read", &LiveCard::read, py::arg("offset"), "One access, with all effects, at the offset of a register.")
+        .def("read", &LiveCard::read, py::arg("offset"), "Reads a register at its offset, with all side effects.")
         .def("write", &LiveCard::write, py::arg("offset"), py::arg("value"),
-             "One access, with all effects, at the offset of a register; value 0 to 65535, or to 255 at a port.")
+             "Writes a register at its offset, with all side effects; value 0 to 65535, or 0 to 255 at a byte port.")
         .def("view", &LiveCard::view, py::arg("clearing"), "Describes the value of every register.")
         .def(
             "wait_interrupt", [](LiveCard& card, double timeout) { return card.wait_interrupt(duration(timeout)); },

@@ -70,8 +70,8 @@ bool DrillWords::pecks_go(const DrillCycle& plan) {
         return true;
     return fail_at(
         block().has('Q') ? block().column[letter_index('Q')] : error_column(), GrblStatus::bad_target,
-        fmt::format("the peck depth Q is {:.6g} mm for {} of {:.6g} mm; it must be above 0 and make at most 100000 "
-                    "pecks of one line",
+        fmt::format("the peck depth Q is {:.6g} mm for {} of {:.6g} mm; it must be above 0 and give at most 100000 "
+                    "pecks per line",
                     plan.peck, plan.repeats == 1 ? std::string("a hole") : fmt::format("{} holes", plan.repeats),
                     plan.r - plan.bottom));
 }

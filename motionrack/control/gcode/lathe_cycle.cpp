@@ -26,7 +26,8 @@ class Path {
     PlanePoint at() const { return at_; }
     bool full() const { return moves_.size() > max_turning_moves; }
     void rapid(PlanePoint to) { add(MoveKind::rapid, to, {}, 0); }
-    /// Passes over everything up to `max_height`: retracts first if one of the ends is lower, and descends behind it.
+    /// Moves to `to` above everything up to `max_height`: retracts first if an end is lower, and descends at the
+    /// target.
     void over(double max_height, PlanePoint to) {
         if (std::min(at_.second, to.second) < max_height - same_mm) {
             const double clear = std::max(to.second, max_height);

@@ -19,8 +19,8 @@ namespace motionrack::control {
 struct CornerBlend {
     double u = 0;
     double begin = 0, peak = 0, end = 0;
-    double rise = 0,
-           fall = 0;     ///< 1 / ((peak - begin)(end - begin)), 1 / ((end - peak)(end - begin)); 0 without such a side
+    double rise = 0;     ///< 1 / ((peak - begin)(end - begin)): half the slope of the rising side; 0 without one
+    double fall = 0;     ///< 1 / ((end - peak)(end - begin)): half the slope of the falling side; 0 without one
     bool fixed = false;  ///< given blend length (arcs)
     double blend_length = 0;
     double linear = 0;     ///< size of the XYZ change

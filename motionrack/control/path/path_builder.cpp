@@ -302,8 +302,8 @@ void PathBuilder::add_event(double u) {
     events_[i] = u;
 }
 
-/// Computes the segment from the cursor to `end`. The integral F of a hat rises from 0 to 1 over its blend. Before its
-/// corner it adds F to the tangent; behind it, it subtracts 1 - F.
+/// Computes the segment from the cursor to `end`. F, the integral of a blend's triangle, rises from 0 to 1 over the
+/// blend. Before a corner the tangent gains F times the change of direction; after it, it lacks 1 - F times the change.
 void PathBuilder::fill(CubicSegment& piece, double end) {
     const double from = cursor_;
     const double middle = 0.5 * (from + end);

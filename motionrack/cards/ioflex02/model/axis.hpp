@@ -27,7 +27,7 @@ struct LineState {
 /// State of an axis; sample k is at k * 100 ns since power-up.
 struct EncoderAxisState {
     std::array<LineState, line_count> lines{};
-    std::int64_t pending = 0;       ///< the first sample with the raw levels
+    std::int64_t pending = 0;       ///< first sample at which the decoder uses the changed input levels
     std::int64_t done = no_sample;  ///< processed samples
     std::int64_t position = 0;
     std::int64_t raw = 0;

@@ -5,7 +5,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-/// Edges that EP counts; with up/down pulses and the undefined 11 it counts all.
+/// Returns the encoder edges that EP counts: all of them for up/down pulses and for the undefined division 11.
 sim::Edges edges_of(const Axis& axis) {
     if (wr2::PINMD.test(axis.wr2)) return sim::Edges::all;
     switch (wr2::PIND.get(axis.wr2)) {

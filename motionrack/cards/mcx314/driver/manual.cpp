@@ -157,7 +157,9 @@ Result<void> Manual::step_jog(std::int64_t pulses, std::int64_t v) {
         return fail(ErrorKind::refused,
                     fmt::format("Step of {}: it is {}. Nothing was moved; stop it first.", name(), state_name()));
     if (pulses == 0)
-        return fail(ErrorKind::refused, fmt::format("Step of {}: it has 0 pulses. Nothing was moved.", name()));
+        return fail(
+            ErrorKind::refused,
+            fmt::format("Step jog of {}: the distance is 0 pulses; it must not be 0. Nothing was moved.", name()));
     if (v < 0)
         return fail(ErrorKind::refused,
                     fmt::format("Step of {}: the speed is {}, but the sign belongs to the pulses. Nothing was moved.",

@@ -150,7 +150,7 @@ constexpr ControlCommand commands[] = {
 
     {"simulate_encoder", {{up_to("EncoderNo", 3)}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.simulate_encoder(small(p[0]))); },
-     "0: none; 1, 2, 3: encoder 0, 1, both count 1000000 counts/s by themselves", page_198},
+     "simulates encoder 0 (1), encoder 1 (2) or both (3) at 1000000 counts/s; 0 ends it", page_198},
     {"read_encoder", {}, 4, true, true, or_wrong,
      [](Engine& e, Numbers) {
          const auto first = e.read_encoder(0), second = e.read_encoder(1);
