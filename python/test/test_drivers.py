@@ -22,7 +22,7 @@ class Mcx314(unittest.TestCase):
         self.card.initialise()
         self.card.SetRange(15, 800000)
 
-    def test_a_drive_takes_as_long_as_its_plan(self) -> None:
+    def test_a_drive_has_the_duration_of_its_plan(self) -> None:
         plan = motionrack.Mcx314.plan(12000, R=800000, SV=100, V=2000, A=200)
         self.assertEqual((plan["pulses"], plan["top_hz"], plan["reaches_v"]), (12000, 20000.0, True))
         begun = self.rack.ticks
@@ -32,7 +32,7 @@ class Mcx314(unittest.TestCase):
         self.assertEqual(self.card.ReadLPS(0), 12000)
         self.assertAlmostEqual(self.rack.parts["X"].position_mm, 12000 / 640, places=6)
 
-    def test_a_line_and_an_arc_end_where_they_should(self) -> None:
+    def test_a_line_and_an_arc_end_at_their_finish_points(self) -> None:
         self.card.Line2D_T(X | Y, (3000, 2000, 0, 0), V=2000, SV=100, A=200)
         self.card.wait(X | Y, timeout=10)
         self.assertEqual([self.card.ReadLPS(axis) for axis in range(4)], [3000, 2000, 0, 0])
@@ -73,14 +73,14 @@ class Mcx314(unittest.TestCase):
         with self.assertRaises(TypeError):
             self.card.SetV(X, "fast")  # type: ignore[arg-type]
 
-    def test_a_wait_that_is_too_short_is_a_timeout_and_the_drive_goes_on(self) -> None:
+    def test_a_too_short_wait_is_a_timeout_and_the_drive_continues(self) -> None:
         self.card.TCurve_F(X, 100, 2000, 200, 12000)
         with self.assertRaises(Timeout):
             self.card.wait(X, timeout=0.1)
         self.assertTrue(self.card.moving(X))
         self.card.wait(X, timeout=10)
 
-    def test_a_limit_switch_is_a_fault_of_the_machine_and_no_timeout(self) -> None:
+    def test_a_limit_switch_is_a_machine_fault_and_not_a_timeout(self) -> None:
         self.card.TCurve_F(X, 100, 2000, 200, 12000)
         self.rack.advance(ms=100)
         self.rack.wires["X.limit_plus"] = 0
@@ -124,7 +124,7 @@ class DataBoard(unittest.TestCase):
         self.assertEqual((board.position(), board.position_mm()), (10000, 100.0))
         self.assertRegex(rack.cards["c1"].view(), r"STAT +[0-9A-F]+h(.|\n)*POSITION +10000 +counts")
 
-    def test_time_outs_stops_and_refusals_are_told_apart(self) -> None:
+    def test_timeouts_stops_and_rejections_are_distinguished(self) -> None:
         rack = Rack.from_text('card.c1 = "databoard4002"')
         rack.plan_fault("c1.esr=1@2s")
         board = rack.cards["c1"].driver
@@ -151,7 +151,7 @@ class DataBoard(unittest.TestCase):
 
 
 class Ioflex(unittest.TestCase):
-    def test_an_axis_beside_a_motor_counts_what_its_encoder_shows(self) -> None:
+    def test_an_axis_counts_the_encoder_of_a_motor(self) -> None:
         rack = Rack.from_file(EXAMPLES / "15_panel" / "demonstration.toml")
         flex: motionrack.Ioflex02 = rack.cards["glass"].driver
         self.assertEqual(flex.ReadPosition0(), 0)
@@ -194,7 +194,7 @@ class Ioflex(unittest.TestCase):
             self.assertEqual(rack.wires[f"p1.in{number}"], 1, line)
             rack.wires[f"p1.in{number}"] = 0
 
-    def test_an_image_of_ones_own_is_made_looked_at_and_loaded(self) -> None:
+    def test_a_user_image_is_made_inspected_and_loaded(self) -> None:
         make = motionrack.Ioflex02.make_image
         image = make(modes=[1, 0, 0, 0], bits=b"more")
         info = motionrack.Ioflex02.image_info(image)
@@ -220,7 +220,7 @@ class Ioflex(unittest.TestCase):
         with self.assertRaises(motionrack.InvalidInput):
             motionrack.Ioflex02.image_info(b"hello")
 
-    def test_the_image_of_a_rack_file_runs_from_the_start_and_is_what_init_loads(self) -> None:
+    def test_the_image_of_a_rack_file_runs_from_the_start_and_is_loaded_by_init(self) -> None:
         text = '[card.p1]\ntype = "ioflex02"\nimage = "{}"\n'
         rack = Rack.from_text(text.format(motionrack.Ioflex02.make_image(modes=[0, 1, 0, 0]).hex()))
         rack.advance(us=2)
@@ -235,7 +235,7 @@ class Ioflex(unittest.TestCase):
 
 
 class Grating(unittest.TestCase):
-    def test_all_cards_read_one_instant(self) -> None:
+    def test_all_cards_read_the_same_instant(self) -> None:
         rack = Rack.from_file(EXAMPLES / "13_stage" / "machine.toml")
         rack.advance(us=30_100)  # between two frames: reading takes time
         readings = [rack.cards[name].driver.read() for name in ("host", "scan", "step")]
@@ -246,7 +246,7 @@ class Grating(unittest.TestCase):
         self.assertEqual(rack.bus_conflicts(), 0)
         self.assertIn("<svg", rack.frame_picture())
 
-    def test_a_card_knows_the_list_of_scales_that_it_reads(self) -> None:
+    def test_a_card_reports_its_list_of_scales(self) -> None:
         rack = Rack.from_text('[card.c1]\ntype = "grating_bus"\naddresses = "5, 2, 9"\n')
         about = rack.cards["c1"].driver.open()
         self.assertEqual((about["scales"], about["first"], about["addresses"]), (3, 5, [5, 2, 9]))
@@ -254,7 +254,7 @@ class Grating(unittest.TestCase):
             Rack.from_text('[card.c1]\ntype = "grating_bus"\naddresses = "5, 5"\n')
         self.assertIn("twice", str(raised.exception))
 
-    def test_a_slave_tells_which_scales_its_host_has_addressed(self) -> None:
+    def test_a_slave_reports_the_scales_addressed_by_its_host(self) -> None:
         rack = Rack.from_text(
             '[card.c1]\ntype = "grating_bus"\naddresses = "5, 2, 9"\n'
             '[card.c2]\ntype = "grating_bus"\nscales = 3\n[card.d]\ntype = "grating_decoder"\nscales = 10\n'
@@ -278,7 +278,7 @@ class Grating(unittest.TestCase):
 
 
 class Laser(unittest.TestCase):
-    def test_a_list_marks_what_it_says(self) -> None:
+    def test_a_list_marks_its_programmed_path(self) -> None:
         rack = Rack.from_file(EXAMPLES / "14_line" / "line.toml")
         rtc: motionrack.Rtc5 = rack.cards["scan"].driver
         k = 5184
@@ -294,7 +294,7 @@ class Laser(unittest.TestCase):
         self.assertEqual(rtc.output()[:2], (5 * k, 0))
         self.assertAlmostEqual(rack.parts["head"].marked_mm, 5 - 0.05 * 100, delta=6)
 
-    def test_parameters_are_looked_through(self) -> None:
+    def test_invalid_parameters_are_rejected(self) -> None:
         rtc = Rack.from_file(EXAMPLES / "14_line" / "line.toml").cards["scan"].driver
         rtc.set_start_list(1)
         acts: Acts = (
@@ -308,7 +308,7 @@ class Laser(unittest.TestCase):
             with self.assertRaises(motionrack.Error):
                 act()
 
-    def test_a_question_takes_its_time(self) -> None:
+    def test_a_query_takes_the_stated_time(self) -> None:
         rack = Rack.from_file(EXAMPLES / "14_line" / "line.toml")
         rtc = rack.cards["scan"].driver
         rtc.get_marking_info()

@@ -97,7 +97,7 @@ def history(folder: str, commands: list[list[str]], environment: dict[str, str])
 
 
 class Examples(unittest.TestCase):
-    def test_the_python_form_has_the_same_history_and_prints_the_same(self) -> None:
+    def test_the_python_form_has_the_same_event_trace_and_output(self) -> None:
         for folder, forms in FORMS.items():
             for form in forms:
                 with self.subTest(folder, python=form.python):
@@ -110,10 +110,10 @@ class Examples(unittest.TestCase):
                         self.assertEqual(printed, expected)
                         self.assertEqual(python_printed, expected)
 
-    def test_no_numbered_example_is_left_out(self) -> None:
+    def test_every_numbered_example_has_a_python_form(self) -> None:
         self.assertEqual(sorted(folder.name for folder in EXAMPLES.glob("[0-9][0-9]_*")), sorted(FORMS))
 
-    def test_a_rack_that_goes_another_way_has_another_history(self) -> None:
+    def test_a_rack_with_other_motion_has_another_event_trace(self) -> None:
         text = "import motionrack\nwith motionrack.Rack.template() as rack: rack.run('G0 X{}\\n')\n"
         one, other = (history("01_first_move", [[sys.executable, "-c", text.format(x)]], {})[1] for x in (5, 6))
         self.assertNotEqual(one, other)

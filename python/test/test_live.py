@@ -73,7 +73,7 @@ class OnAFile(unittest.TestCase):
 
 
 class Functions(OnAFile):
-    def test_those_of_the_header_of_c_are_there(self) -> None:
+    def test_all_functions_of_the_c_header_exist(self) -> None:
         header = (ROOT / "motionrack/frontends/mcx314lib/mcx314lib.h").read_text(encoding="utf-8")
         source = set(re.findall(r"MCX314_API \w+\s+([A-Z]\w*)\(", header))
         self.assertEqual(len(source), 57)
@@ -165,7 +165,7 @@ class Opening(OnAFile):
             card.library
         LiveCard(self.place).close()
 
-    def test_says_what_is_wrong_with_a_place_and_with_a_type(self) -> None:
+    def test_reports_an_invalid_address_and_an_invalid_type(self) -> None:
         for place, kind, sentence in (
             ("/dev/uio0", InvalidInput, "it has no ':'"),
             (f"port:{self.path},width=7", InvalidInput, "width is 7; it must be 8 to 16"),
@@ -196,7 +196,7 @@ class Opening(OnAFile):
         self.path.write_bytes(bytes(16))
         LiveCard(self.place).close()
 
-    def test_library_and_driver_are_not_for_one_card_at_a_time(self) -> None:
+    def test_library_and_driver_exclude_each_other_on_a_card(self) -> None:
         with LiveCard(self.place) as card:
             card.library.SetV(1, 1)
             self.assertIs(card.library, card.library)
@@ -224,7 +224,7 @@ class RegistersByHand(OnAFile):
             self.assertGreaterEqual(card.seconds, 0)
             self.assertIn("RR0", card.view())
 
-    def test_refuse_what_they_are_not(self) -> None:
+    def test_reject_invalid_access(self) -> None:
         with LiveCard(self.place) as card:
             acts: tuple[tuple[type[Exception], str, Act], ...] = (
                 (InvalidInput, "cannot be looked at without an access", lambda: card.RR0.peek()),
@@ -244,7 +244,7 @@ class RegistersByHand(OnAFile):
                     act()
             self.assertEqual(self.word(), 0, "nothing was written")
 
-    def test_an_access_that_the_computer_refuses_is_raised_and_is_the_last(self) -> None:
+    def test_a_failed_access_raises_and_is_the_last(self) -> None:
         card = LiveCard(self.place)
         os.truncate(self.path, 4)
         with self.assertRaisesRegex(FileError, "The register at 0Ch could not be read"):
@@ -259,7 +259,7 @@ class RegistersByHand(OnAFile):
         self.assertTrue(card.closed)
         self.assertEqual(self.word(), 0)
 
-    def test_a_card_that_answers_no_more_is_raised_and_its_position_is_none(self) -> None:
+    def test_a_card_that_stops_answering_raises_and_has_no_position(self) -> None:
         card = LiveCard(self.place)
         card.library.SetV(1, 1)
         self.path.write_bytes(b"\xff" * 16)
@@ -272,7 +272,7 @@ class RegistersByHand(OnAFile):
 
 
 class Stops(OnAFile):
-    def test_a_block_ends_with_the_axes_at_rest(self) -> None:
+    def test_a_with_block_ends_with_the_axes_at_standstill(self) -> None:
         with LiveCard(self.place) as card:
             card.library.SetV(1, 1)
             self.assertNotEqual(self.word(), STOPPED)
@@ -303,7 +303,7 @@ class Stops(OnAFile):
         self.assertEqual(self.word(), 0x0105)
         card.close()
 
-    def test_an_exception_of_a_handler_in_a_wait_does_so_too(self) -> None:
+    def test_an_exception_of_a_signal_handler_in_a_wait_stops_the_card(self) -> None:
         def handler(number: int, frame: object) -> None:
             card.quick_stop()  # a handler may
             raise LookupError("of the handler")
@@ -316,7 +316,7 @@ class Stops(OnAFile):
                 card.driver.wait(1, timeout=60)
             self.assertTrue(card.stopped)
 
-    def test_another_thread_stops_what_this_one_waits_for(self) -> None:
+    def test_another_thread_stops_a_move_during_a_wait(self) -> None:
         with LiveCard(self.waiting) as card:
             card.library.report(1)
             with self.once_it_waits(card.quick_stop), self.assertRaisesRegex(Stopped, "Stopped on request"):
@@ -325,7 +325,7 @@ class Stops(OnAFile):
             card.quick_stop()
             self.assertEqual(self.word(), STOPPED)
 
-    def test_other_calls_of_another_thread_are_refused_meanwhile(self) -> None:
+    def test_other_calls_of_another_thread_are_rejected_during_a_wait(self) -> None:
         said: list[str] = []
 
         def meddle() -> None:

@@ -68,7 +68,7 @@ class Served(unittest.TestCase):
         time.sleep(0.1)
         self.assertEqual(self.card.driver.position(), here, "it stands")
 
-    def test_a_slot_without_this_card_is_told(self) -> None:
+    def test_a_slot_without_this_card_is_reported(self) -> None:
         self.card.close()
         other = LiveCard(PLACE, "databoard4002", select=7)
         with self.assertRaisesRegex(MachineFault, "No card answers under the number 7"):

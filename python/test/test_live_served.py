@@ -61,7 +61,7 @@ class Served(unittest.TestCase):
         card.wait(X, timeout=10)
         self.assertEqual(card.ReadLPS(0), 1000)
 
-    def test_its_interrupt_wakes(self) -> None:
+    def test_its_interrupt_ends_a_wait(self) -> None:
         card = self.card.driver
         card.initialise()
         card.SetRange(15, 800000)
@@ -70,7 +70,7 @@ class Served(unittest.TestCase):
         self.card.wait_interrupt(10)
         self.assertFalse(card.moving(X))
 
-    def test_ctrl_c_ends_its_pulses_and_a_program_goes_on_after_the_reset(self) -> None:
+    def test_ctrl_c_ends_its_pulses_and_a_program_continues_after_the_reset(self) -> None:
         call = self.card.library
         call.RESET()
         call.SetRange(800000)

@@ -50,13 +50,13 @@ def operated() -> tuple[str, float, str]:
 
 
 class Operating(unittest.TestCase):
-    def test_the_same_orders_at_the_same_times_give_the_same_history(self) -> None:
+    def test_the_same_commands_at_the_same_times_give_the_same_event_trace(self) -> None:
         first = operated()
         self.assertTrue(0 < first[1] < 40)
         for _ in range(3):
             self.assertEqual(operated(), first)
 
-    def test_time_passes_in_whole_slices_and_only_when_it_is_let(self) -> None:
+    def test_time_advances_in_whole_slices_and_only_on_request(self) -> None:
         machine = Machine.template("router")
         self.assertEqual(machine.status.ticks, machine.status.ticks)
         before = machine.status.ticks
@@ -65,7 +65,7 @@ class Operating(unittest.TestCase):
         with self.assertRaises(Timeout):
             machine.wait("moving", timeout=0.1)
 
-    def test_orders_that_do_not_fit_are_refused(self) -> None:
+    def test_invalid_commands_are_rejected(self) -> None:
         machine = Machine.template("router")
         acts: Acts = (
             lambda: machine.start_program(TEXT),
@@ -84,7 +84,7 @@ class Operating(unittest.TestCase):
         with self.assertRaises(motionrack.InvalidInput):
             machine.wire("no.such")
 
-    def test_a_stop_drives_no_further_line_and_a_reset_moves_nothing(self) -> None:
+    def test_after_a_stop_no_line_is_executed_and_a_reset_moves_nothing(self) -> None:
         machine = ready()
         machine.start_program(TEXT, "there.ngc")
         machine.advance(0.5)
@@ -126,7 +126,7 @@ class Operating(unittest.TestCase):
                 timeout=60,
             )
 
-    def test_a_machine_may_end_in_the_midst_of_a_drive(self) -> None:
+    def test_a_machine_may_be_closed_during_motion(self) -> None:
         machine = ready()
         machine.start_program(TEXT)
         machine.advance(0.3)
@@ -140,7 +140,7 @@ class Operating(unittest.TestCase):
         del left
         gc.collect()
 
-    def test_ctrl_c_ends_a_wait_and_the_machine_goes_on(self) -> None:
+    def test_ctrl_c_ends_a_wait_and_the_machine_continues(self) -> None:
         machine = ready()
         before = signal.signal(signal.SIGINT, signal.default_int_handler)
         timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))

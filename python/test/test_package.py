@@ -41,7 +41,7 @@ class Stubs(unittest.TestCase):
         written = (ROOT / "python" / "motionrack" / "_core.pyi").read_text(encoding="utf-8")
         self.assertEqual(stubs.stub(), written, "make it anew: PYTHONPATH=BUILD/python python3 python/tools/stubs.py")
 
-    def test_mypy_knows_what_a_user_writes(self) -> None:
+    def test_mypy_accepts_typical_user_code(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             user = Path(folder) / "user.py"
             user.write_text(
@@ -65,14 +65,14 @@ class Stubs(unittest.TestCase):
             self.assertEqual((revealed[0], revealed[2]), ("builtins.float", "builtins.int"))
             self.assertIn("ndarray", revealed[1])
 
-    def test_everything_public_is_named_once(self) -> None:
+    def test_every_public_name_is_exported_once(self) -> None:
         self.assertEqual(sorted(set(motionrack.__all__)), sorted(motionrack.__all__))
         for name in motionrack.__all__:
             self.assertTrue(hasattr(motionrack, name), name)
 
 
 class Docstrings(unittest.TestCase):
-    def test_everything_public_has_one(self) -> None:
+    def test_every_public_name_has_one(self) -> None:
         for name in motionrack.__all__:
             thing = getattr(motionrack, name)
             if not callable(thing):
@@ -85,7 +85,7 @@ class Docstrings(unittest.TestCase):
                         with self.subTest(f"{name}.{member}"):
                             self.assertTrue(inspect.getdoc(value))
 
-    def test_every_number_that_a_driver_takes_has_its_range_or_unit(self) -> None:
+    def test_every_number_of_a_driver_has_its_range_or_unit(self) -> None:
         """Masks and channels of axes are explained once, by the class; everything else in its own docstring."""
         unit = re.compile(
             r"\d|\bs\b|counts?|pulses|bits|mm|degrees|Hz|us|mask|see |units|text|head|as of|path|levels?", re.IGNORECASE

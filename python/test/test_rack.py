@@ -38,18 +38,18 @@ class Making(unittest.TestCase):
                 self.assertGreater(len(rack.cards), 0)
                 self.assertEqual(Rack.from_text(motionrack.template_text(name)).name, rack.name)
 
-    def test_a_wrong_rack_file_tells_every_problem_with_its_place(self) -> None:
+    def test_an_invalid_rack_file_reports_every_problem_with_its_location(self) -> None:
         with self.assertRaises(InvalidInput) as caught:
             Rack.from_text('[card.c1]\ntype = "mcx999"\n\n[axis.X]\ncard = "c2"\n', "my.toml")
         self.assertGreaterEqual(len(caught.exception.problems), 2)
         self.assertEqual((caught.exception.file, caught.exception.line), ("my.toml", 2))
         self.assertTrue(str(caught.exception).startswith("my.toml:2:"))
 
-    def test_a_file_that_is_not_there_is_file_trouble(self) -> None:
+    def test_a_missing_file_is_a_file_error(self) -> None:
         with self.assertRaises(motionrack.FileError):
             Rack.from_file("/no/such.toml")
 
-    def test_a_path_in_the_wrong_place_is_told_the_right_one(self) -> None:
+    def test_a_path_passed_to_the_constructor_is_reported_with_the_remedy(self) -> None:
         with self.assertRaisesRegex(TypeError, r"not created by Rack\('my.toml'\). Use Rack.from_file"):
             Rack("my.toml")  # type: ignore[arg-type]
 
@@ -75,7 +75,7 @@ class Making(unittest.TestCase):
                 act()
         self.assertIn("closed", repr(rack))
 
-    def test_a_closed_rack_refuses_everything_and_its_drivers_too(self) -> None:
+    def test_a_closed_rack_and_its_drivers_reject_every_call(self) -> None:
         self.refuse_everything()
         gc.collect()
 
@@ -90,14 +90,14 @@ class Time(unittest.TestCase):
         self.assertEqual(rack.ticks, 3_010_020_030)
         self.assertAlmostEqual(rack.time, 0.301002003, places=12)
 
-    def test_time_that_cannot_be_is_refused(self) -> None:
+    def test_impossible_times_are_rejected(self) -> None:
         rack = Rack.from_text(CARD)
         for seconds in (-1, float("nan"), float("inf"), 1e30):
             with self.subTest(seconds), self.assertRaises(Refused):
                 rack.advance(seconds)
         self.assertEqual(rack.ticks, 0)
 
-    def test_waiting_for_a_condition_ends_when_it_is_true_or_in_time(self) -> None:
+    def test_a_wait_for_a_condition_ends_when_it_is_true_or_at_its_timeout(self) -> None:
         rack = Rack.from_text(CARD)
         drive(rack.cards["c1"], 20000)
         rack.wait(lambda: rack.peek("c1.x.LP") >= 1000, timeout=1, poll=1e-4)
@@ -109,7 +109,7 @@ class Time(unittest.TestCase):
         with self.assertRaises(Refused):
             rack.wait(lambda: True, timeout=1, poll=0)
 
-    def test_waiting_for_a_wire_stands_at_the_very_instant(self) -> None:
+    def test_a_wait_for_a_wire_ends_at_its_exact_instant(self) -> None:
         """The referee looks at the same rack in steps of a tick of the chip."""
         rack = Rack.template("router")
         driver = rack.cards["motion"].driver
@@ -129,7 +129,7 @@ class Time(unittest.TestCase):
         with self.assertRaises(InvalidInput):
             rack.wait_wire("no.such", 0, timeout=1e-3)
 
-    def test_an_interrupt_is_waited_for(self) -> None:
+    def test_a_wait_ends_at_an_interrupt(self) -> None:
         rack = Rack.from_text(CARD)
         card = rack.cards["c1"]
         card.driver.SetRange(15, 800000)
@@ -142,7 +142,7 @@ class Time(unittest.TestCase):
 
 
 class Registers(unittest.TestCase):
-    def test_looking_has_no_effect_and_reading_has(self) -> None:
+    def test_peeking_has_no_side_effect_and_reading_has(self) -> None:
         rack = Rack.from_text(CARD)
         card = rack.cards["c1"]
         card.WR0 = 0x010F  # X: its registers are shown
@@ -176,7 +176,7 @@ class Registers(unittest.TestCase):
         with self.assertRaises(Refused):
             card.WR0.read()
 
-    def test_what_is_not_in_the_map_is_no_attribute(self) -> None:
+    def test_unknown_registers_are_not_attributes(self) -> None:
         card = Rack.from_text(CARD).cards["c1"]
         acts: Acts = (
             lambda: card.WR99,
@@ -206,7 +206,7 @@ class Registers(unittest.TestCase):
                     self.assertIn(register.name, repr(register))
         self.assertEqual(rack.ticks, 0)
 
-    def test_every_register_of_the_bus_reads_what_it_shows(self) -> None:
+    def test_every_register_reads_the_value_that_it_shows(self) -> None:
         rack = Rack.from_file(Path(__file__).parents[2] / "examples" / "15_panel" / "demonstration.toml")
         for card in (rack.cards["motion"], rack.cards["host"]):
             for register in card.registers.values():
@@ -220,7 +220,7 @@ class Registers(unittest.TestCase):
 
 
 class Machine(unittest.TestCase):
-    def test_wires_are_driven_and_released(self) -> None:
+    def test_wires_are_forced_and_released(self) -> None:
         rack = Rack.template("router")
         self.assertEqual(rack.wires["X.limit_plus"], 1)
         rack.wires["X.limit_plus"] = 0
@@ -234,7 +234,7 @@ class Machine(unittest.TestCase):
         with self.assertRaises(Refused):
             rack.wires["estop"] = 0.5
 
-    def test_parts_tell_what_is_true_and_can_be_pushed(self) -> None:
+    def test_parts_report_true_quantities_and_can_be_pushed(self) -> None:
         rack = Rack.template("router")
         x = rack.parts["X"]
         self.assertEqual(x.position_mm, 0)
@@ -252,7 +252,7 @@ class Machine(unittest.TestCase):
             for quantity in part.quantities:
                 self.assertIsInstance(getattr(part, quantity), float)
 
-    def test_faults_break_and_mend(self) -> None:
+    def test_faults_are_injected_and_cleared(self) -> None:
         rack = Rack.template("router")
         self.assertIn("encoder.broken_a", rack.faults["X"])
         rack.fault("X", "motor.stall")
@@ -270,7 +270,7 @@ class Machine(unittest.TestCase):
             with self.assertRaises(InvalidInput):
                 rack.fault(target, fault)
 
-    def test_planned_faults_happen_at_their_instant(self) -> None:
+    def test_planned_faults_are_injected_at_their_instant(self) -> None:
         rack = Rack.template("router")
         rack.plan_fault("X.limit_plus", np.int64(0), at=np.float64(0.5))  # type: ignore[arg-type]  # NumPy's, too
         rack.plan_fault("X.limit_plus=release@600ms")
@@ -285,7 +285,7 @@ class Machine(unittest.TestCase):
         with self.assertRaises(InvalidInput):
             rack.new_instance().plan_fault("X.nothing=0@2s")
 
-    def test_a_card_is_changed_before_its_time_begins(self) -> None:
+    def test_a_card_is_changed_before_time_starts(self) -> None:
         rack = Rack.from_text('[card.d]\ntype = "grating_decoder"\n[card.h]\ntype = "grating_bus"\n')
         rack.change_card("h", period_us=250)
         self.assertEqual(rack.cards["h"].driver.open()["period"], 250e-6)

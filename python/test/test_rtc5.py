@@ -76,7 +76,7 @@ class Commands(unittest.TestCase):
                 plain = [[word.lower().removeprefix("d") for word in words] for words in (named, given)]
                 self.assertEqual(plain[0][: len(given)], plain[1])
 
-    def test_what_is_out_of_range_is_refused_with_the_range_and_the_bit(self) -> None:
+    def test_values_out_of_range_are_rejected_with_the_range_and_the_bit(self) -> None:
         rtc: Any = rack_of()[1]
         acts: dict[Callable[[], object], str] = {
             lambda: rtc.simulate_encoder(4): "simulate_encoder: EncoderNo is 4; it must be 0 to 3; nothing was changed",
@@ -136,7 +136,7 @@ class Commands(unittest.TestCase):
         self.assertEqual(rtc.get_error(), REJECTED)
         rack.advance(ms=1)
 
-    def test_cards_of_the_rack_are_counted_chosen_and_let_go(self) -> None:
+    def test_cards_of_the_rack_are_counted_selected_and_released(self) -> None:
         rack = Rack.from_text('card.a = "rtc5"\ncard.m = "mcx314"\ncard.b = "rtc5"\n')
         rtc: motionrack.Rtc5 = rack.cards["a"].driver
         self.assertEqual((rtc.init_rtc5_dll(), rtc.rtc5_count_cards()), (0, 2))
@@ -152,7 +152,7 @@ class Commands(unittest.TestCase):
         self.assertEqual(rtc.select_rtc(1), 1)
         self.assertEqual(rtc.get_io_status(), 0)
 
-    def test_control_commands_do_what_they_say(self) -> None:
+    def test_control_commands_have_their_documented_effect(self) -> None:
         rack, rtc = rack_of()
         rtc.simulate_encoder(3)
         rack.advance(ms=10)
@@ -224,7 +224,7 @@ class Words(unittest.TestCase):
         self.send(5)
         self.assertEqual((self.at(), self.rtc.read_mcbsp(0)), ((70, 80), 5))
 
-    def test_set_fly_rot_pos_turns_about_the_centre(self) -> None:
+    def test_set_fly_rot_pos_rotates_about_the_centre(self) -> None:
         self.rtc.set_rot_center(0, 0)
         self.send(900)
         run(self.rtc, lambda: self.rtc.jump_abs(1000, 0), lambda: self.rtc.set_fly_rot_pos(3600), self.rtc.list_nop)
@@ -271,7 +271,7 @@ class Words(unittest.TestCase):
         self.rtc.set_mcbsp_matrix()
         self.assertEqual(self.rtc.get_mcbsp(), 0xFFFE0003 - (1 << 32))
 
-    def test_read_mcbsp_says_what_must_come_first(self) -> None:
+    def test_read_mcbsp_names_the_command_required_first(self) -> None:
         for location, first in ((0, "first use set_fly_x_pos, set_fly_y_pos"), (1, "set_mcbsp_in with Mode 1 or 3")):
             with self.assertRaises(Refused) as caught:
                 self.rtc.read_mcbsp(location)
@@ -358,7 +358,7 @@ class Files(unittest.TestCase):
         self.rack.advance(us=20)
         self.assertEqual(self.rtc.output()[:2], (0, 0))
 
-    def test_damage_is_refused_and_leaves_the_table_as_it_was(self) -> None:
+    def test_a_damaged_file_is_rejected_and_keeps_the_table(self) -> None:
         self.rtc.load_correction_file(self.file(), 1)
         wrong: tuple[dict[str, Any], ...] = (
             {"damage": (700_000,)},
@@ -377,7 +377,7 @@ class Files(unittest.TestCase):
         with self.assertRaises(FileError):
             self.rtc.load_correction_file("/no/such.ct5", 1)
 
-    def test_a_checksum_that_is_not_known_is_a_warning(self) -> None:
+    def test_an_unknown_checksum_is_a_warning(self) -> None:
         end = 1_056_852
         with self.assertWarnsRegex(UserWarning, "from an older program, whose checksum is unknown; it was not checked"):
             self.rtc.load_correction_file(self.file(program=310, damage=(end - 1, end - 3)), 3)

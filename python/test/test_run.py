@@ -88,7 +88,7 @@ class Outcomes(unittest.TestCase):
             np.gradient(trace["x.position"], trace.time)[slow].mean(), trace["x.velocity"][slow].mean(), rtol=0.01
         )
 
-    def test_a_longer_sample_period_gives_fewer_samples_and_the_same_history(self) -> None:
+    def test_a_longer_sample_period_gives_fewer_samples_and_the_same_event_trace(self) -> None:
         fine, coarse = (Rack.template().run(TEXT, sample_period=period) for period in (1e-3, 1e-2))
         self.assertAlmostEqual(len(fine.trace.ticks) / len(coarse.trace.ticks), 10, delta=0.2)
         self.assertEqual(fine.trace.hash(), coarse.trace.hash())
@@ -110,7 +110,7 @@ class Outcomes(unittest.TestCase):
         with self.assertRaises(Refused):
             Rack.template().run(TEXT, profile="wild")
 
-    def test_blocks_and_events_are_told(self) -> None:
+    def test_moves_and_events_are_reported(self) -> None:
         outcome = Rack.template().run("G21 G90\nM3 S1000\nG1 X10 F600\nG4 P0.1\nG0 X0\nM2\n")
         self.assertEqual(
             [(block.kind, block.line) for block in outcome.executed_moves], [("feed", 3), ("dwell", 4), ("rapid", 5)]
@@ -128,7 +128,7 @@ class Outcomes(unittest.TestCase):
 
 
 class Mistakes(unittest.TestCase):
-    def test_a_wrong_program_moves_nothing_and_tells_line_and_column(self) -> None:
+    def test_an_invalid_program_moves_nothing_and_reports_line_and_column(self) -> None:
         rack = Rack.template()
         with self.assertRaises(motionrack.Error) as caught:
             rack.run("G21 G90\nG1 X5 F100\nG1 X600\nG1 Q\n", name="bad.ngc")
@@ -146,7 +146,7 @@ class Mistakes(unittest.TestCase):
         self.assertFalse(rack._world.started())
         self.assertTrue(rack.run(TEXT).ok)
 
-    def test_a_lost_position_keeps_the_next_program_from_beginning(self) -> None:
+    def test_a_lost_position_prevents_the_next_program(self) -> None:
         rack = Rack.template()
         rack.fault("X", "motor.lose_steps", 64)
         lost = rack.run(TEXT)
@@ -159,14 +159,14 @@ class Mistakes(unittest.TestCase):
         with self.assertRaises(Refused):
             Rack.from_text('card.c1 = "ioflex02"').run(TEXT)
 
-    def test_text_or_path_one_of_the_two(self) -> None:
+    def test_text_and_path_exclude_each_other(self) -> None:
         for program, path in ((None, None), ("M2", "x.ngc")):
             with self.assertRaises(InvalidInput):
                 Rack.template().run(program, path=path)
         with self.assertRaises(motionrack.FileError):
             Rack.template().run(path="/no/such.ngc")
 
-    def test_what_the_machine_does_wrong_is_the_outcomes_error(self) -> None:
+    def test_a_machine_fault_is_the_error_of_the_outcome(self) -> None:
         outcome = Rack.template().run(
             "G21 G90\nG1 X100 F3000\nM2\n", faults=["X.limit_plus=0@500ms", "X.limit_minus=0@100s"]
         )
@@ -197,7 +197,7 @@ class Mistakes(unittest.TestCase):
 
 
 class Progress(unittest.TestCase):
-    def test_a_progress_call_may_look_but_not_move(self) -> None:
+    def test_a_progress_callback_may_read_but_not_move(self) -> None:
         rack = Rack.template()
         seen: list[tuple[float, int, int, float]] = []
         moved: list[str] = []
@@ -216,7 +216,7 @@ class Progress(unittest.TestCase):
         self.assertEqual(seen, sorted(seen))
         self.assertGreater(max(place for *_, place in seen), 9)
 
-    def test_what_a_progress_call_raises_ends_the_run(self) -> None:
+    def test_an_exception_of_a_progress_callback_ends_the_run(self) -> None:
         def progress(seconds: float, line: int, lines: int) -> None:
             raise ZeroDivisionError("enough")
 
@@ -236,7 +236,7 @@ class Homing(unittest.TestCase):
                 self.assertEqual(isinstance(homing.error, MachineFault), not homing.ok)
                 self.assertIn("<svg", next(iter(homing.pictures.values())))
 
-    def test_axes_and_types_that_there_are_not_are_refused(self) -> None:
+    def test_unknown_axes_and_types_are_rejected(self) -> None:
         path = EXAMPLES / "08_homing" / "machine.toml"
         with self.assertRaises(Refused):
             Rack.from_file(path).home(type=7)
@@ -245,7 +245,7 @@ class Homing(unittest.TestCase):
 
 
 class Programs(unittest.TestCase):
-    def test_begin_where_the_axes_stand(self) -> None:
+    def test_start_at_the_positions_of_the_axes(self) -> None:
         rack = Rack.template()
         rack.advance(ms=1)
         first = rack.run("G21 G90\nG1 X10 F1200\nM2\n")
@@ -261,7 +261,7 @@ class Programs(unittest.TestCase):
         self.assertEqual(first.svg(), picture, "what came of the first one stays")
         self.assertEqual(copy.run("G21 G91\nG1 X5 F1200\nM2\n").trace_hash, second.trace_hash)
 
-    def test_begin_where_homing_left_the_axes(self) -> None:
+    def test_start_at_the_positions_after_homing(self) -> None:
         rack = Rack.from_file(EXAMPLES / "08_homing" / "machine.toml")
         self.assertTrue(rack.home().ok)
         outcome = rack.run("G21 G90\nG1 X20 F1200\nM2\n").check()

@@ -33,7 +33,7 @@ def look(rack: Rack, signal: str) -> float:
 
 
 class Recordings(unittest.TestCase):
-    def test_a_recording_is_a_look_at_each_instant_and_disturbs_nothing(self) -> None:
+    def test_a_recording_samples_each_instant_without_an_effect(self) -> None:
         rack = moving()
         referee = rack.copy()
         with rack.record(*SIGNALS, period=1e-3) as recording:
@@ -52,7 +52,7 @@ class Recordings(unittest.TestCase):
             self.assertEqual(trace[signal].dtype, np.int64)
         self.assertEqual((trace.units["X.position_mm"], trace.units["X.position_pulses"]), ("mm", "pulses"))
 
-    def test_what_counts_is_whole(self) -> None:
+    def test_counters_are_integers(self) -> None:
         rack = Rack.from_file(EXAMPLES / "13_stage" / "machine.toml")
         stage = next(name for name, of in rack.parts.items() if "unused_frames" in of.quantities)
         counted = ("scale_counts", "lost_counts", "trusted", "closed", "unused_frames")
@@ -66,7 +66,7 @@ class Recordings(unittest.TestCase):
         for name in measured:
             self.assertEqual(recording.trace[f"{stage}.{name}"].dtype, np.float64, name)
 
-    def test_a_program_may_be_recorded_and_has_the_same_history(self) -> None:
+    def test_a_program_may_be_recorded_with_the_same_event_trace(self) -> None:
         text = "G21 G90\nG1 X5 F600\nM2\n"
         rack = Rack.template()
         with rack.record("X.position_mm", period=5e-4) as recording:
@@ -78,7 +78,7 @@ class Recordings(unittest.TestCase):
             float(recording.trace["X.position_mm"][at]), float(outcome.trace["X.position"][100]), delta=0.02
         )
 
-    def test_too_many_instants_are_thinned_and_stay_even(self) -> None:
+    def test_too_many_instants_are_decimated_evenly(self) -> None:
         rack = moving()
         with rack.record("motion.x.LP", period=1e-4, max_samples=100) as recording:
             rack.advance(ms=200)
@@ -87,7 +87,7 @@ class Recordings(unittest.TestCase):
         self.assertGreater(len(ticks), 40)
         self.assertEqual(len(set(np.diff(ticks)[:-1])), 1)
 
-    def test_one_recording_at_a_time_and_only_what_is_there(self) -> None:
+    def test_only_existing_signals_are_recorded_one_recording_at_a_time(self) -> None:
         rack = moving()
         with self.assertRaises(InvalidInput):
             rack.record("X.nothing")
@@ -140,7 +140,7 @@ class Pictures(unittest.TestCase):
     def trace(self) -> motionrack.Trace:
         return Rack.template().run("G21 G90\nG1 X5 F600\nM2\n").trace
 
-    def test_the_projects_own_picture_is_sound_svg(self) -> None:
+    def test_the_picture_of_the_project_is_valid_svg(self) -> None:
         trace = self.trace()
         for svg in (trace.svg("x.position", "x.velocity"), trace._repr_svg_()):
             root = xml.etree.ElementTree.fromstring(svg or "")
@@ -150,7 +150,7 @@ class Pictures(unittest.TestCase):
         with self.assertRaises(Refused):
             trace.svg("x.position", width=1)
 
-    def test_without_matplotlib_a_plot_is_the_trace_which_a_notebook_shows(self) -> None:
+    def test_without_matplotlib_a_plot_is_the_trace_that_a_notebook_shows(self) -> None:
         program = """
 import sys
 sys.modules["matplotlib"] = sys.modules["matplotlib.figure"] = None

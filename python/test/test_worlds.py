@@ -15,7 +15,7 @@ from motionrack import Rack, Refused
 
 
 class Worlds(unittest.TestCase):
-    def test_a_restored_world_does_the_same_again(self) -> None:
+    def test_a_restored_rack_continues_identically(self) -> None:
         rack = Rack.from_text(CARD)
         drive(rack.cards["c1"], 20000)
         rack.advance(ms=100)
@@ -29,7 +29,7 @@ class Worlds(unittest.TestCase):
         rack.advance(ms=200)
         self.assertEqual((rack.state_hash(), rack.trace_hash(), rack.peek("c1.x.LP"), rack.ticks), first)
 
-    def test_a_copy_goes_its_own_way(self) -> None:
+    def test_a_copy_is_independent(self) -> None:
         rack = Rack.from_text(CARD)
         drive(rack.cards["c1"], 20000)
         rack.advance(ms=100)
@@ -40,7 +40,7 @@ class Worlds(unittest.TestCase):
         self.assertEqual(rack.peek("c1.x.LP"), 20000)
         self.assertLess(other.peek("c1.x.LP"), 20000)
 
-    def test_planned_faults_are_not_done_twice_by_a_copy(self) -> None:
+    def test_planned_faults_are_not_repeated_by_a_copy(self) -> None:
         rack = Rack.template("router")
         rack.plan_fault("X.motor.push=320@1ms")
         rack.advance(ms=2)
@@ -55,7 +55,7 @@ class Worlds(unittest.TestCase):
 
 
 class Threads(unittest.TestCase):
-    def test_other_threads_go_on_and_may_not_touch_a_running_rack(self) -> None:
+    def test_other_threads_continue_but_cannot_access_a_running_rack(self) -> None:
         rack = Rack.template("router")
         rack.record("X.position_mm", period=1e-5)  # keeps it busy
         refused: list[BaseException] = []
@@ -82,7 +82,7 @@ class Threads(unittest.TestCase):
         thread.join()
         self.assertIn("thread", str(refused[0]))
 
-    def test_racks_run_in_threads_side_by_side_and_do_not_know_each_other(self) -> None:
+    def test_racks_in_parallel_threads_are_independent(self) -> None:
         program = "G21 G90 F2400\nG1 X20 Y10\nG3 X30 Y20 I0 J10\nG0 X0 Y0\nM2\n"
         alone = Rack.template().run(program).trace_hash
         found: list[str] = []
@@ -95,7 +95,7 @@ class Threads(unittest.TestCase):
             thread.join()
         self.assertEqual(found, [alone] * 4)
 
-    def test_ctrl_c_ends_a_run_and_the_rack_goes_on_afterwards(self) -> None:
+    def test_ctrl_c_ends_a_run_and_the_rack_continues_afterwards(self) -> None:
         """In a process of its own, which tells when it runs; endless programs end by nothing else."""
         program = r"""
 import signal, threading, motionrack, os
