@@ -147,7 +147,7 @@ for (const [what, end] of [
     await done(tab);
   });
 
-test('a lost connection ends a jog; nothing goes on when it comes back', async () => {
+test('a lost connection ends a jog, which does not continue after reconnecting', async () => {
   const context = await all.browser.newContext();
   const { tabOf } = await import('./support.mjs');
   const routes = [];

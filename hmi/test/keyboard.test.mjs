@@ -190,7 +190,7 @@ test('jog keys do nothing until the keyboard is armed', async () => {
   await rest(tab);
 });
 
-test('without control a key says why it does nothing', async () => {
+test('without control a key reports the reason', async () => {
   const tab = await openTab(all.browser, all.server);
   await tab.page.keyboard.press('r');
   await tab.page.getByText('Run: Take control first.').waitFor();

@@ -78,7 +78,7 @@ test('STOP works while the stream is down, by HTTP', async () => {
   await context.close();
 });
 
-test('a second tab changes nothing and takes nothing', async () => {
+test('a second tab changes nothing and does not take control', async () => {
   const tab = await running();
   const second = await openTab(all.browser, all.server);
   await second.page.getByText(/holds control/).waitFor();
@@ -114,7 +114,7 @@ test('the program is typed, checked and run; the line that is driven is marked',
   await done(tab);
 });
 
-test('what is refused is shown as the sentence that the program gave', async () => {
+test('a rejection is shown with the message of the program', async () => {
   const tab = await openTab(all.browser, all.server);
   await tab.page.getByRole('button', { name: 'Feed hold' }).click();
   await tab.page.getByText(/A hold is not possible: the machine is in state/).waitFor();

@@ -39,7 +39,7 @@ async function pictures(tab) {
   await tab.page.setViewportSize({ width: 1440, height: 900 });
 }
 
-test('a real card says where it is, moves in service only, and STOP ends its pulses', { skip: none }, async (t) => {
+test('a real card shows its address, moves in service only, and STOP ends its pulses', { skip: none }, async (t) => {
   const server = await started();
   if (server === null) return t.skip('this computer lets no program serve files');
   const browser = await openBrowser();

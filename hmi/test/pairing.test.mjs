@@ -39,7 +39,7 @@ test('a code is typed into a small dialog; a wrong one is refused with a sentenc
   await tab.context.close();
 });
 
-test('who only observes sees controls disabled with the reason, and STOP enabled', async () => {
+test('an observer has controls disabled with the reason, and STOP enabled', async () => {
   const tab = await openTab(all.browser, all.server);
   const hold = tab.page.getByRole('group', { name: 'Motion' }).getByRole('button', { name: 'Feed hold' });
   assert.equal(await hold.getAttribute('aria-disabled'), 'true');
@@ -56,7 +56,7 @@ test('who only observes sees controls disabled with the reason, and STOP enabled
   await tab.context.close();
 });
 
-test('a token that is not known any more is forgotten', async () => {
+test('a revoked token is discarded', async () => {
   const context = await all.browser.newContext();
   await context.addInitScript(() => localStorage.setItem('motionrack.token', 'nonsense'));
   const tab = await tabOf(context, all.server);
@@ -64,7 +64,7 @@ test('a token that is not known any more is forgotten', async () => {
   await context.close();
 });
 
-test('somebody who may maintain makes a code for others', async () => {
+test('a maintainer creates an invitation code', async () => {
   const tab = await openTab(all.browser, all.server, { hash: `#pair=${await invite('maintain')}` });
   await tab.page.getByRole('button', { name: 'Invite' }).click();
   await tab.page.getByRole('button', { name: 'Make a code' }).click();

@@ -30,7 +30,7 @@ describe('run', () => {
     expect(commands(program)).toEqual(['resume']);
   });
 
-  test('without a program asks for one', async () => {
+  test('without a program requests one', async () => {
     const { actions, notices, program } = await opened();
     actions.perform(actions.actions.run);
     expect(commands(program)).toEqual([]);
@@ -114,7 +114,7 @@ describe('switches', () => {
 describe('who may', () => {
   const names = ['resume', 'reset', 'enable', 'home', 'touchOff', 'declare', 'run', 'step'] as const;
 
-  test('a tab without control moves nothing, and says why', async () => {
+  test('a tab without control moves nothing and reports the reason', async () => {
     const { actions, notices, program } = await opened({ ...STORED, machine: { control: { holder: 'bert' } } });
     for (const name of names) actions.perform(actions.actions[name]);
     actions.setFeed(0.5);

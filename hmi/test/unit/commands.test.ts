@@ -61,7 +61,7 @@ describe('a sentence', () => {
 });
 
 describe('notices', () => {
-  test('go away by themselves: what was done after 4 s, what was refused after 12 s', async () => {
+  test('disappear: confirmations after 4 s, rejections after 12 s', async () => {
     openBrowser();
     const { notice } = await commands();
     notice('done', 'paired');
@@ -99,7 +99,7 @@ describe('notices', () => {
 });
 
 describe('STOP', () => {
-  test('goes by the stream and by HTTP', async () => {
+  test('is sent by the stream and by HTTP', async () => {
     const { browser, program } = await connected();
     (await commands()).stop();
     await settled();
@@ -108,14 +108,14 @@ describe('STOP', () => {
     expect(await texts()).toEqual([]);
   });
 
-  test('says by HTTP, too, who it was', async () => {
+  test('is sent by HTTP with the name of the user', async () => {
     const browser = openBrowser({ stored: { 'motionrack.token': 'T1' } });
     (await commands()).stop();
     await settled();
     expect(browser.posts.map((one) => one.authorization)).toEqual(['Bearer T1']);
   });
 
-  test('goes by HTTP where there is no stream, and says nothing if it arrived', async () => {
+  test('is sent by HTTP without a stream, and is silent on success', async () => {
     const browser = openBrowser();
     (await commands()).stop();
     await settled();
@@ -136,7 +136,7 @@ describe('STOP', () => {
 });
 
 describe('what is not allowed', () => {
-  test('says first that there is no connection', async () => {
+  test('reports a missing connection first', async () => {
     openBrowser();
     expect((await commands()).whyNot('observe')).toBe('The page is not connected to the program.');
   });
@@ -157,12 +157,12 @@ describe('what is not allowed', () => {
     expect((await commands()).whyNot('operate')).toMatch(/needs the role operate; you have the role observe\./);
   });
 
-  test('asks a browser that is not paired to pair', async () => {
+  test('requests pairing from an unpaired browser', async () => {
     await connected({ role: 'none' });
     expect((await commands()).whyNot('observe')).toMatch(/you are not paired\. Pair this browser/);
   });
 
-  test('names who holds control, where control is needed', async () => {
+  test('names the holder of control if control is needed', async () => {
     const { program } = await connected({ machine: { control: { holder: 'bert', holder_session: 'another' } } });
     const { mayOperate, whyNot } = await commands();
     expect(whyNot('operate')).toBe('');

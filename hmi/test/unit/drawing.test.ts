@@ -94,7 +94,7 @@ describe('the planes', () => {
 describe('the eye', () => {
   const eye = { turn: 0.5, tilt: 0, far: 100 };
 
-  test('turns, tilts and goes nearer by so much', () => {
+  test('rotates, tilts and zooms by fixed steps', () => {
     expect(turned(eye, { turn: 0.25, tilt: -0.5 })).toEqual({ turn: 0.75, tilt: -0.5, far: 100 });
     expect(turned(eye, { far: 0.5 }).far).toBe(50);
   });
@@ -104,7 +104,7 @@ describe('the eye', () => {
     expect(turned(eye, { tilt: -9 }).tilt).toBe(-1.5);
   });
 
-  test('goes no nearer than 1 and no farther than 10000', () => {
+  test('limits the zoom to 1 to 10000', () => {
     expect(turned(eye, { far: 1e-6 }).far).toBe(1);
     expect(turned(eye, { far: 1e6 }).far).toBe(1e4);
   });
@@ -115,7 +115,7 @@ describe('the eye', () => {
     expect(turned(there, KEY_TURNS.ArrowRight ?? {}).turn).toBeCloseTo(eye.turn, 12);
   });
 
-  test('goes nearer by plus and farther by minus', () => {
+  test('zooms in by plus and out by minus', () => {
     expect(turned(eye, KEY_TURNS['+'] ?? {}).far).toBeLessThan(eye.far);
     expect(turned(eye, KEY_TURNS['-'] ?? {}).far).toBeGreaterThan(eye.far);
   });

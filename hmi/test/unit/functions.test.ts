@@ -50,7 +50,7 @@ const functions = [
 const found = (search: string): [string, string[]][] =>
   groupsOf(functions, search).map((group) => [group.name, group.functions.map((one) => one.name)]);
 
-test('functions stand in the groups of their declaration', () => {
+test('functions are in the groups of their declaration', () => {
   expect(found('')).toEqual([
     ['Basic', ['SetV', 'SetA']],
     ['Positions', ['RESET']],
@@ -71,7 +71,7 @@ test('a form begins with what is declared, and sends whole numbers', () => {
   expect(readTexts(setV, { axis: '3', data: ' 2000 ' })).toEqual({ values: { axis: 3, data: 2000 } });
 });
 
-test('what is beside the range is not sent, and the range is said', () => {
+test('a value out of range is not sent, and the range is reported', () => {
   const [setV] = functions;
   if (setV === undefined) throw new Error('there is none');
   for (const data of ['0', '8001', '1.5', 'x', ''])
@@ -81,7 +81,7 @@ test('what is beside the range is not sent, and the range is said', () => {
   expect(readTexts(setV, { axis: '0', data: '1' }).why).toContain('1 X, 2 Y, or a sum');
 });
 
-test('ranges are told with their units or their values', () => {
+test('ranges have their units or their values', () => {
   expect(rangeText(argument('data', { unit: '' }))).toBe('1 to 8\u2009000');
   expect(rangeText({ ...axes, sum: false })).toBe('1 X, 2 Y');
 });

@@ -150,7 +150,7 @@ describe('the card', () => {
   };
   const shown = (csb: number, select: number | null): Promise<Shown> => Promise.resolve({ csb, select });
 
-  test('is selected by the number that it tells, unless it is selected', async () => {
+  test('is selected by its reported number unless already selected', async () => {
     const { written, write } = writes();
     expect(await choose(() => shown(1, 13), write)).toBe(true);
     expect(written).toEqual([]);
@@ -165,7 +165,7 @@ describe('the card', () => {
     expect(written).toEqual([]);
   });
 
-  test('is asked each time for its CSB', async () => {
+  test('is queried each time for its CSB', async () => {
     const { written, write } = writes();
     const answers: (Shown | null)[] = [
       { csb: 1, select: 13 },

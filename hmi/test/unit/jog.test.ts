@@ -37,14 +37,14 @@ describe('a held jog', () => {
     expect(jogs(program)).toHaveLength(12);
   });
 
-  test('goes at the chosen part of the axis’ maximum velocity, backwards as fast as forwards', async () => {
+  test('uses the chosen share of the maximum velocity of the axis in both directions', async () => {
     const { lease, program } = await opened();
     lease.setSpeedPart(0.5);
     lease.begin('key', 'Y', -1);
     expect(jogs(program)).toEqual([['Y', -10]]);
   });
 
-  test('goes at the maximum velocity as a rapid one, until it is slowed down', async () => {
+  test('uses the maximum velocity for a rapid jog until it is reduced', async () => {
     const { lease, program } = await opened();
     lease.begin('key', 'X', 1, true);
     await after(80);
@@ -57,7 +57,7 @@ describe('a held jog', () => {
     ]);
   });
 
-  test('stops when it is let go, once', async () => {
+  test('stops once when the key is released', async () => {
     const { lease, program } = await opened();
     lease.begin('key', 'X', 1);
     lease.end('key');
@@ -100,7 +100,7 @@ describe('a jog', () => {
     expect([jogs(program), lease.jogging.value]).toEqual([[], '']);
   });
 
-  test('that the program refuses is not asked for again', async () => {
+  test('that the program rejects is not requested again', async () => {
     const { lease, program } = await opened();
     program.answers.jog = 'X stands at its limit.';
     lease.begin('key', 'X', 1);
@@ -154,7 +154,7 @@ describe('the commands of a jog', () => {
 });
 
 describe('two held jogs', () => {
-  test('of two axes: letting one go stops that one alone', async () => {
+  test('of two axes: releasing one key stops its axis alone', async () => {
     const { lease, program } = await opened();
     lease.begin('a', 'X', 1);
     lease.begin('b', 'Y', 1);

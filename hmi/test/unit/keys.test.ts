@@ -277,7 +277,7 @@ describe('a jog key that may not jog', () => {
     expect(commands(program)).toEqual([]);
   });
 
-  test('says why it does not jog, once', async () => {
+  test('reports once why it does not jog', async () => {
     const { browser, program } = await listening({ ...HOLD, machine: { control: { holder: 'bert' } } });
     (await lease()).setArmed(true);
     key(browser, 'keydown', 'ArrowRight');

@@ -167,7 +167,7 @@ describe('the rack', () => {
     expect([...channelNames.value]).toEqual(['X.error']);
   });
 
-  test('is not known where the program refuses to say it, and nothing breaks', async () => {
+  test('is unknown if the program rejects the query, without an error', async () => {
     const { program } = await connected();
     const { rack } = await import('../../src/link/rack');
     program.answers.rack = 'not now';

@@ -51,7 +51,7 @@ test('a browser without a name gets one of its own', async () => {
   expect(browser.posts[0]?.body).toEqual({ code: 'ABCD', name: 'browser-2f1e' });
 });
 
-test('a code in the address that is refused stands in the dialog, with the reason', async () => {
+test('a rejected code of the address is shown in the dialog with the reason', async () => {
   const browser = openBrowser({ hash: '#pair=ABCD' });
   browser.http = { ok: false, status: 403, body: { error: { kind: 'denied', message: 'Too late.' } } };
   const { codeText, dialogOpen, pairFromAddress, whyNotPaired } = await pairing();

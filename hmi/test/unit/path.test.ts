@@ -39,7 +39,7 @@ describe('the planned path', () => {
     expect(data.plannedIs.value).toBe('running');
   });
 
-  test('stands at 0 in an axis that the program does not name', async () => {
+  test('is 0 in an axis that the program does not name', async () => {
     const { data, program } = await following('XYA');
     await next(program, { number: 1, axes: 'XY', planned: plan });
     expect(data.planned.value).toEqual([
@@ -131,7 +131,7 @@ describe('the driven path', () => {
 });
 
 describe('following', () => {
-  test('asks five times a second', async () => {
+  test('sends five queries per second', async () => {
     const { program } = await following();
     for (let i = 0; i < 5; ++i) {
       program.show();
@@ -140,7 +140,7 @@ describe('following', () => {
     expect(program.asked('path')).toHaveLength(6);
   });
 
-  test('asks nothing while the page is hidden or without a connection, and goes on after that', async () => {
+  test('sends no query while the page is hidden or disconnected, and continues afterwards', async () => {
     const { browser, program } = await following();
     browser.hide(true);
     await after(1000);
@@ -151,7 +151,7 @@ describe('following', () => {
     expect(program.asked('path')).toHaveLength(2);
   });
 
-  test('goes on after a question that was refused', async () => {
+  test('continues after a rejected query', async () => {
     const { program } = await following();
     program.answers.path = 'not now';
     await after(400);

@@ -17,7 +17,7 @@ async function polling(): Promise<{ browser: Browser; program: Program; polled: 
 }
 
 describe('a query of a panel', () => {
-  test('is asked at once, and so long after each answer again', async () => {
+  test('is queried at once, and again an interval after each answer', async () => {
     const { polled, program } = await polling();
     expect(program.asked('card')).toEqual([{ query: 'card', name: 'mcx' }]);
     program.answers.card = { word: 7 };
@@ -30,7 +30,7 @@ describe('a query of a panel', () => {
     expect(polled.data.value).toMatchObject({ word: 7 });
   });
 
-  test('is not asked a second time before it was answered', async () => {
+  test('is not queried again before its answer', async () => {
     const { program } = await polling();
     for (let i = 0; i < 8; ++i) {
       program.show();
@@ -39,7 +39,7 @@ describe('a query of a panel', () => {
     expect(program.asked('card')).toHaveLength(1);
   });
 
-  test('that is refused says why, keeps what was known, and is asked again', async () => {
+  test('that is rejected reports the reason, keeps its last data and is repeated', async () => {
     const { polled, program } = await polling();
     program.say({ id: program.heard.at(-1)?.id, word: 6 });
     program.answers.card = 'Unknown card mcx.';
@@ -50,7 +50,7 @@ describe('a query of a panel', () => {
     expect([polled.data.value, polled.why.value]).toMatchObject([{ word: 8 }, '']);
   });
 
-  test('is not asked while the page is hidden', async () => {
+  test('is not queried while the page is hidden', async () => {
     const { browser, program } = await polling();
     program.answers.card = { word: 7 };
     program.say({ id: program.heard.at(-1)?.id, word: 6 });
@@ -86,14 +86,14 @@ describe('the last seconds of channels', () => {
     program.show({ at }, values);
   };
 
-  test('are asked for at their rate', async () => {
+  test('are requested at their rate', async () => {
     const { program } = await recording();
     expect(program.asked('subscribe').at(-1)).toEqual({
       subscribe: { channels: ['mcx.CV', 'mcx.LP'], rate_hz: 100 },
     });
   });
 
-  test('stand in seconds before now, a row a channel', async () => {
+  test('are in seconds before now, one row per channel', async () => {
     const { data, program } = await recording();
     await next(program, 5, [1, 10]);
     await next(program, 6, [2, null]);

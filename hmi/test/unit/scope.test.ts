@@ -20,14 +20,14 @@ describe('reading a recording', () => {
 
   test('a channel without any value has none', () => expect(valueAt([], 2)).toBeNull());
 
-  test('a cursor stands at the time nearest to where it was put', () => {
+  test('a cursor snaps to the nearest time', () => {
     expect(nearest([-10, 0, 10], -99)).toBe(0);
     expect(nearest([-10, 0, 10], 4.9)).toBe(1);
     expect(nearest([-10, 0, 10], 5.1)).toBe(2);
     expect(nearest([], 3)).toBe(0);
   });
 
-  test('cursors that were not put anywhere stand at a third and two thirds', () => {
+  test('cursors are initially at one third and two thirds', () => {
     expect(thirds([0, 1, 2, 3, 4, 5])).toEqual([2, 4]);
     expect(thirds([0, 1, 2])).toBeNull();
   });
@@ -89,7 +89,7 @@ describe('arming', () => {
     });
   });
 
-  test('without a trigger says nothing of an edge and a level', () => {
+  test('without a trigger has no edge and no level', () => {
     expect(armFields({ ...now, trigger: '' }, 'run')).toEqual({
       channels: ['X.error', 'limit.x'],
       period_us: 50,
@@ -120,7 +120,7 @@ describe('settings of the scope', () => {
     expect(settings.value).toMatchObject({ channels: ['X.error'], level: '2', edge: 'rise' });
   });
 
-  test('that an older page did not know have their first value', async () => {
+  test('that an older page lacked have their default value', async () => {
     const [, { settings }] = await opened({ 'motionrack.scope': '{"length":"5"}' });
     expect(settings.value).toMatchObject({ length: '5', pre: '20', channels: [] });
   });
@@ -135,7 +135,7 @@ const recorder = async (): Promise<typeof import('../../src/scope/recorded')> =>
 };
 
 describe('what was recorded', () => {
-  test('samples stand at equal distances, in milliseconds from the trigger', async () => {
+  test('samples are equidistant, in milliseconds from the trigger', async () => {
     const { keep, recorded } = await recorder();
     keep({ state: 'done', capture: { ...capture, traces: [samples] } });
     expect(recorded.value).toEqual({

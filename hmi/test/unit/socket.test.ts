@@ -41,7 +41,7 @@ describe('a question', () => {
     );
   });
 
-  test('without a connection is not sent, and says so', async () => {
+  test('without a connection is not sent, and reports it', async () => {
     openBrowser();
     await expect((await link()).ask({ command: 'home' })).rejects.toThrow('Nothing was sent.');
   });
@@ -130,7 +130,7 @@ describe('a connection that is gone', () => {
     expect((await state()).link.value).toBe('lost');
   });
 
-  test('says nothing any more: messages of an old socket are not heard', async () => {
+  test('is silent: messages of an old socket are ignored', async () => {
     const { browser } = await connected({ machine: { state: 'standstill' } });
     browser.socket.close();
     browser.socket.readyState = FakeSocket.OPEN;
@@ -147,7 +147,7 @@ describe('pictures', () => {
     expect((await state()).machineState.value).toBe('hold');
   });
 
-  test('that come faster than the page draws are left out of its panels, and reach who asked for each', async () => {
+  test('that arrive faster than the page draws are skipped by its panels and delivered to subscribers of each', async () => {
     const { program } = await connected();
     const seen: number[] = [];
     (await link()).whenPicture((picture) => seen.push(picture.at));
@@ -242,7 +242,7 @@ describe('who this browser is', () => {
     }
   });
 
-  test('is known before panels ask their first question', async () => {
+  test('is known before panels send their first query', async () => {
     const browser = openBrowser({ stored: { 'motionrack.token': 'T1' } });
     const { connect, whenOpen, ask } = await link();
     whenOpen(() => void ask({ query: 'rack' }).catch(() => undefined));

@@ -16,7 +16,7 @@ const alarm = (part: Partial<Alarm>): Alarm => ({
 });
 
 describe('the machine', () => {
-  test('is disabled as long as nothing is known of it', async () => {
+  test('is disabled until its state is known', async () => {
     openBrowser();
     const { axes, holder, inControl, machineState } = await state();
     expect([machineState.value, axes.value, holder.value, inControl.value]).toEqual(['disabled', [], '', false]);

@@ -56,7 +56,7 @@ describe('the program that runs', () => {
     expect(running.value).toBeNull();
   });
 
-  test('is asked for once, not with every picture', async () => {
+  test('is requested once and not with every snapshot', async () => {
     const { program } = await connected();
     program.answers.program = answer;
     await text();
