@@ -38,18 +38,18 @@ int GrblSession::command(const std::string& text) {
     const State now = state();
     switch (what) {
         case '\0':
-            put(help);
+            answers_.put(help);
             return error_none;
         case 'J':
             return jog(text);
         case '$':
             if (text.size() > 2) return error_unknown;
             if (now == State::run || now == State::hold) return error_not_idle;
-            put(settings_text(machine_.rack().config(), own_, settings_.axes));
+            answers_.put(settings_text(machine_.rack().config(), own_, settings_.axes));
             return error_none;
         case 'G':
             if (text.size() > 2) return error_unknown;
-            put(modes_text());
+            answers_.put(modes_text());
             return error_none;
         case 'C':
             return text.size() > 2 ? int{error_unknown} : check_mode();
@@ -66,14 +66,14 @@ int GrblSession::command_at_rest(const std::string& text) {
     switch (text[1]) {
         case '#':
             if (text.size() > 2) return error_unknown;
-            put(parameters_text());
+            answers_.put(parameters_text());
             return error_none;
         case 'H':
             return text.size() > 2 ? int{error_unknown} : home();
         case 'S':
             if (text != "$SLP") return error_unknown;
-            answer(error_none);
-            push("Sleeping");
+            answers_.answer(error_none);
+            answers_.push("Sleeping");
             asleep_ = true;
             return answer_later;
         case 'I':
@@ -81,15 +81,15 @@ int GrblSession::command_at_rest(const std::string& text) {
             if (text.size() > 2)
                 build_text_ = text.substr(3);
             else
-                put(fmt::format("[VER:1.1h.20190830:{}]\r\n[OPT:V,{},{}]\r\n", build_text_, planner_blocks,
-                                max_waiting));
+                answers_.put(fmt::format("[VER:1.1h.20190830:{}]\r\n[OPT:V,{},{}]\r\n", build_text_, planner_blocks,
+                                         max_waiting));
             return error_none;
         case 'R':
             return restore(text);
         case 'N':
             if (text.size() > 2) return store_startup_line(std::string_view(text).substr(2));
             for (std::size_t i = 0; i < startup_lines_.size(); ++i)
-                put(fmt::format("$N{}={}\r\n", i, startup_lines_[i]));
+                answers_.put(fmt::format("$N{}={}\r\n", i, startup_lines_[i]));
             return error_none;
         default:
             return store(std::string_view(text).substr(1));
@@ -103,12 +103,12 @@ int GrblSession::store(std::string_view text) {
     if (!take_equals(text)) return error_unknown;
     if (!take_number(text, value)) return error_bad_number;
     if (!text.empty() || number != std::floor(number) || number < 0 || number > 255) return error_unknown;
-    if (!control()) return error_locked;
+    if (!take_control(settings_, answers_)) return error_locked;
     const SettingResult changed =
         change_setting(machine_.rack().config(), own_, settings_.axes, static_cast<int>(number), value);
     if (changed.note.empty()) return changed.error;
     if (changed.error != error_none)
-        push(changed.note);
+        answers_.push(changed.note);
     else if (settings_.on_setting)
         settings_.on_setting(changed.note);
     return changed.error;
@@ -119,11 +119,12 @@ int GrblSession::store_startup_line(std::string_view text) {
     double number = 0;
     if (!take_number(text, number)) return error_bad_number;
     if (!take_equals(text) || (number != 0 && number != 1)) return error_unknown;
-    if (!control()) return error_locked;
+    if (!take_control(settings_, answers_)) return error_locked;
     control::gcode::Interpreter trial = interpreter();
     if (const auto read = trial.line(text, 0); !read) return static_cast<int>(read.error().status);
     if (starts_something(trial)) {
-        push("Not stored: a startup line runs at each reset, and a reset starts no motion, spindle, coolant or output");
+        answers_.push(
+            "Not stored: a startup line runs at each reset, and a reset starts no motion, spindle, coolant or output");
         return error_unsupported;
     }
     startup_lines_[number == 0 ? 0 : 1] = text;
@@ -134,7 +135,7 @@ int GrblSession::restore(const std::string& text) {
     if (text.size() != 6 || text.compare(0, 5, "$RST=") != 0) return error_unknown;
     const char what = text[5];
     if (what != '$' && what != '#' && what != '*') return error_unknown;
-    if (!control()) return error_locked;
+    if (!take_control(settings_, answers_)) return error_locked;
     if (what != '#') own_ = SessionSettingValues();
     if (what != '$' && !machine_.clear_offsets()) return error_not_idle;
     if (what == '*') {
@@ -142,23 +143,23 @@ int GrblSession::restore(const std::string& text) {
         build_text_.clear();
     }
     if (settings_.on_setting) settings_.on_setting(fmt::format("{}: settings of the Grbl port are restored", text));
-    push("Restoring defaults");
-    answer(error_none);
+    answers_.push("Restoring defaults");
+    answers_.answer(error_none);
     reset();
     return answer_later;
 }
 
 int GrblSession::check_mode() {
     if (check_) {
-        push("Disabled");
-        answer(error_none);
+        answers_.push("Disabled");
+        answers_.answer(error_none);
         reset();
         return answer_later;
     }
     if (state() != State::idle) return error_not_idle;
     check_ = machine_.stream().interpreter();
     if (check_->modes().motion == control::gcode::no_motion && !was_g80_) (void)check_->line("G0", 0);
-    push("Enabled");
+    answers_.push("Enabled");
     return error_none;
 }
 
@@ -167,7 +168,7 @@ int GrblSession::check_mode() {
 /// The operator confirms the displayed axis positions.
 int GrblSession::unlock() {
     if (state() != State::alarm) return error_none;
-    if (!control()) return error_locked;
+    if (!take_control(settings_, answers_)) return error_locked;
     if (machine_.state() == MachineState::error_stop)  // after a STOP; others need the sender's reset
         resets_ = true, machine_.reset(settings_.source("$X")), resets_ = false;
     alarm_ = stopped_ = false;
@@ -183,10 +184,10 @@ void GrblSession::declare_positions() {
 
 int GrblSession::home() {
     if (!operate::can_home(machine_.rack().config())) return error_no_homing;
-    if (!control()) return error_locked;
+    if (!take_control(settings_, answers_)) return error_locked;
     (void)machine_.enable(true);
     if (const Result<void> begun = machine_.home(""); !begun) {
-        push(begun.error().message);
+        answers_.push(begun.error().message);
         return error_locked;
     }
     stopped_ = false;
@@ -208,12 +209,12 @@ bool GrblSession::finish_homing() {
         return true;
     }
     if (ended.error().kind == ErrorKind::refused) {
-        push(ended.error().message);
+        answers_.push(ended.error().message);
         finish_answer(error_no_homing);
         return true;
     }
     alarm(number_of_homing(), false);
-    push(ended.error().message);
+    answers_.push(ended.error().message);
     reset();
     return false;
 }
@@ -233,10 +234,10 @@ int GrblSession::jog(const std::string& text) {
     if (now != State::idle && now != State::jog) return error_not_idle;
     const JogLine line = read_jog(text, interpreter(), settings_.axes);
     if (line.error != error_none) return line.error;
-    if (!control()) return error_locked;
+    if (!take_control(settings_, answers_)) return error_locked;
     energise();
     if (const Result<void> begun = machine_.jog_to(line.target, line.feed); !begun) {
-        push(begun.error().message);
+        answers_.push(begun.error().message);
         return error_locked;
     }
     watch_machine();

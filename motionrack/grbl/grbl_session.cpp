@@ -27,7 +27,7 @@ GrblSession::GrblSession(operate::Machine& machine, SessionSettings settings)
     settings_.axes = std::clamp(settings_.axes, 3, 4);
     never_enabled_ = machine_.state() == MachineState::disabled;
     watch_machine();
-    out_.clear();
+    (void)answers_.take();
 }
 
 // ---- bytes
@@ -50,7 +50,7 @@ void GrblSession::observe(std::string_view bytes) {
     for (const char c : bytes) {
         const std::optional<Realtime> what = realtime_of(static_cast<std::uint8_t>(c));
         if (what == Realtime::reset && !settings_.onlookers_reset)
-            push("The reset of an observer was not executed. ! holds the machine");
+            answers_.push("The reset of an observer was not executed. ! holds the machine");
         else if (what == Realtime::status || what == Realtime::reset || what == Realtime::feed_hold ||
                  what == Realtime::door || what == Realtime::jog_cancel)
             act(*what);
@@ -86,7 +86,7 @@ void GrblSession::work() {
         if (status_wanted_) report();
         const Line line = *std::exchange(line_, std::nullopt);
         if (line.too_long)
-            answer(error_line_length);
+            answers_.answer(error_line_length);
         else
             carry_out(line.text);
     }
@@ -122,7 +122,7 @@ void GrblSession::carry_out(const std::string& text) {
         error = command(text);
     else if (!text.empty())
         error = gcode(text);
-    if (error != answer_later) answer(error);
+    if (error != answer_later) answers_.answer(error);
 }
 
 int GrblSession::gcode(const std::string& text) {
@@ -140,7 +140,7 @@ int GrblSession::gcode(const std::string& text) {
     if (block.has_g(g_motion)) was_g80_ = block.g[g_motion] == 800;
     const bool ends = block.has_m(m_stop) && block.m[m_stop] >= 2;
     if (check_) {
-        if (ends) push("Pgm End");
+        if (ends) answers_.push("Pgm End");
         return error_none;
     }
     const bool probes = machine_.stream().probe_pending();
@@ -152,7 +152,7 @@ int GrblSession::gcode(const std::string& text) {
 
 /// Gives a line to the machine, which starts in G0 like a Grbl.
 control::gcode::Outcome<void> GrblSession::give(const std::string& text, std::int32_t n_word) {
-    if (!control()) {
+    if (!take_control(settings_, answers_)) {
         Problem problem;
         problem.kind = ErrorKind::refused;
         return tl::unexpected<Problem>(std::move(problem));
@@ -172,15 +172,8 @@ int GrblSession::refused(const Problem& problem) {
         doing_ = PendingLine{PendingLine::What::leaving_travel};
         return answer_later;
     }
-    if (problem.status == GrblStatus::none && !problem.message.empty()) push(problem.message);
+    if (problem.status == GrblStatus::none && !problem.message.empty()) answers_.push(problem.message);
     return decimal_of(problem);
-}
-
-bool GrblSession::control() {
-    if (!settings_.take_control) return true;
-    const Result<void> taken = settings_.take_control();
-    if (!taken) push(taken.error().message);
-    return taken.has_value();
 }
 
 // ---- actions of other clients
@@ -189,7 +182,8 @@ bool GrblSession::control() {
 void GrblSession::stopped(const operate::StopReport& report) {
     if (resets_) return;
     const bool waits = held_ || door_ || line_ || doing_;
-    if (report.releases && std::exchange(stopped_, false)) return push(report.text + " The sender may continue");
+    if (report.releases && std::exchange(stopped_, false))
+        return answers_.push(report.text + " The sender may continue");
     if (report.releases && !waits) return;
     never_enabled_ = false;
     lock(report.text);
@@ -208,8 +202,8 @@ void GrblSession::lock(std::string_view why) {
     n_words_.clear();
     const bool alarms_later =
         doing_ && (doing_->what == PendingLine::What::homing || doing_->what == PendingLine::What::leaving_travel);
-    if (!locked_before && !alarms_later) put(fmt::format("ALARM:{}\r\n", int{alarm_reset}));
-    push(why);
+    if (!locked_before && !alarms_later) answers_.alarm(alarm_reset);
+    answers_.push(why);
     if (doing_ && !alarms_later) finish_answer(error_locked);
 }
 
@@ -236,7 +230,7 @@ bool GrblSession::finish() {
                 declare_positions();
                 return false;
             }
-            if (!doing_->silent) push("Caution: Unlocked");
+            if (!doing_->silent) answers_.push("Caution: Unlocked");
             break;
     }
     finish_answer(error_none);
@@ -244,23 +238,23 @@ bool GrblSession::finish() {
 }
 
 void GrblSession::finish_answer(int error) {
-    if (!std::exchange(doing_, std::nullopt)->silent) answer(error);
+    if (!std::exchange(doing_, std::nullopt)->silent) answers_.answer(error);
 }
 
 void GrblSession::end_program() {
     spindle_override_ = 100;
     machine_.set_overrides(1, 1);
-    if (!doing_->silent) push("Pgm End");
+    if (!doing_->silent) answers_.push("Pgm End");
 }
 
 void GrblSession::finish_boot() {
     const bool after_reset = std::exchange(boot_, Boot::done) == Boot::reset;
     if (machine_.state() == MachineState::error_stop && !(after_reset && alarm_ && is_stop_ordered(machine_))) {
         critical_ = true;
-        push(machine_.status().reason);
+        answers_.push(machine_.status().reason);
     }
     if (locked())
-        push("'$H'|'$X' to unlock");
+        answers_.push("'$H'|'$X' to unlock");
     else if (after_reset)
         startup();
 }
@@ -269,30 +263,17 @@ void GrblSession::startup() {
     for (const std::string& text : startup_lines_) {
         if (text.empty()) continue;
         const auto read = give(text, 0);
-        put(fmt::format(">{}:", text));
-        answer(read ? int{error_none} : decimal_of(read.error()));
+        answers_.put(fmt::format(">{}:", text));
+        answers_.answer(read ? int{error_none} : decimal_of(read.error()));
     }
-}
-
-// ---- answers
-
-void GrblSession::answer(int error) {
-    put(error == error_none ? std::string("ok\r\n") : fmt::format("error:{}\r\n", error));
-}
-
-/// Sends ASCII only, without the characters that end a message.
-void GrblSession::push(std::string_view text) {
-    put("[MSG:");
-    for (const char c : text) out_ += c >= ' ' && c <= '~' && c != '[' && c != ']' ? c : '?';
-    put("]\r\n");
 }
 
 void GrblSession::alarm(int number, bool needs_reset) {
     alarm_ = true;
-    put(fmt::format("ALARM:{}\r\n", number));
+    answers_.alarm(number);
     if (!needs_reset) return;
     critical_ = true;
-    push("Reset to continue");
+    answers_.push("Reset to continue");
 }
 
 }  // namespace motionrack::grbl

@@ -13,9 +13,10 @@
 
 #include <array>
 #include <deque>
-#include <functional>
+#include <motionrack/grbl/answers.hpp>
 #include <motionrack/grbl/input_parser.hpp>
 #include <motionrack/grbl/numbers.hpp>
+#include <motionrack/grbl/session_settings.hpp>
 #include <motionrack/grbl/settings.hpp>
 #include <motionrack/operate/machine.hpp>
 #include <optional>
@@ -23,21 +24,6 @@
 #include <string_view>
 
 namespace motionrack::grbl {
-
-struct SessionSettings {
-    int axes = 3;  ///< 3: X Y Z; 4: also A, in grblHAL's report format
-    /// Succeeds if this sender may move the machine now. Empty: always.
-    std::function<Result<void>()> take_control = {};
-    /// Succeeds if a reset by this sender may stop the present action of the machine. Empty: always.
-    std::function<Result<void>()> may_stop = {};
-    /// Identity of this sender, for reports of its resets; `kind`: "^X", "$X".
-    std::function<operate::StopOrigin(const char* kind)> source = [](const char* kind) {
-        return operate::StopOrigin{"a sender", "", kind};
-    };
-    bool onlookers_reset = false;  ///< resets by observers count as this sender's
-    /// Called with a sentence when a setting has changed.
-    std::function<void(const std::string&)> on_setting = {};
-};
 
 /// Machine states as defined by Grbl.
 enum class State : std::uint8_t { idle, run, hold, jog, alarm, door, check, home, sleep };
@@ -64,7 +50,7 @@ class GrblSession {
     /// Call every slice: processes pending lines, due answers and alarms.
     void tick();
     /// Returns the pending output, whole lines, and clears it.
-    std::string take_output() { return std::exchange(out_, {}); }
+    std::string take_output() { return answers_.take(); }
 
     State state() const;
     const SessionSettingValues& own() const { return own_; }
@@ -96,16 +82,12 @@ class GrblSession {
     int gcode(const std::string& text);
     control::gcode::Outcome<void> give(const std::string& text, std::int32_t n_word);
     int refused(const control::gcode::Problem& problem);
-    bool control();
     void lock(std::string_view why);
     bool finish();
     void finish_answer(int error);
     void end_program();
     void finish_boot();
     void startup();
-    void answer(int error);
-    void push(std::string_view text);
-    void put(std::string_view text) { out_ += text; }
     void alarm(int number, bool needs_reset);
     // commands.cpp
     int command(const std::string& text);
@@ -152,7 +134,8 @@ class GrblSession {
     SessionSettings settings_;
     SessionSettingValues own_;
     std::array<std::string, 2> startup_lines_;
-    std::string build_text_, out_;
+    std::string build_text_;
+    Answers answers_;
     InputParser intake_;
     std::optional<Line> line_;  ///< next line, while it has to wait
     std::optional<PendingLine> doing_;

@@ -57,7 +57,8 @@ void GrblSession::act(Realtime what) {
         case Realtime::cycle_start:
             return resume();
         case Realtime::spindle_stop:
-            if (state() == State::hold && status.spindle != control::gcode::Spindle::off && control()) {
+            if (state() == State::hold && status.spindle != control::gcode::Spindle::off &&
+                take_control(settings_, answers_)) {
                 spindle_stopped_ = !spindle_stopped_;
                 until_overrides_ = 0;
             }
@@ -75,7 +76,7 @@ void GrblSession::act(Realtime what) {
 
 bool GrblSession::may_switch_coolant() {
     const State now = state();
-    return (now == State::idle || now == State::run || now == State::hold) && control();
+    return (now == State::idle || now == State::run || now == State::hold) && take_control(settings_, answers_);
 }
 
 void GrblSession::switch_coolant(bool mist, bool flood) {
@@ -86,7 +87,7 @@ void GrblSession::switch_coolant(bool mist, bool flood) {
 void GrblSession::override_by(Realtime what) {
     const auto step = std::find_if(override_steps.begin(), override_steps.end(),
                                    [&](const OverrideStep& one) { return one.what == what; });
-    if (step == override_steps.end() || !control()) return;
+    if (step == override_steps.end() || !take_control(settings_, answers_)) return;
     Overrides now = overrides();
     int& value = now.*step->which;
     value = std::clamp(step->absolute ? step->percent : value + step->percent, min_override, max_override);
@@ -123,7 +124,7 @@ void GrblSession::open_door() {
         return reset();
     }
     if (now == State::alarm || now == State::check || now == State::sleep || now == State::door) return;
-    push("Check Door");
+    answers_.push("Check Door");
     if (now == State::jog) machine_.cancel();
     if (now == State::run) (void)machine_.hold();
     door_ = true;
@@ -132,7 +133,7 @@ void GrblSession::open_door() {
 
 void GrblSession::resume() {
     const State now = state();
-    if ((now != State::hold && now != State::door) || is_moving(machine_) || !control()) return;
+    if ((now != State::hold && now != State::door) || is_moving(machine_) || !take_control(settings_, answers_)) return;
     held_ = door_ = hold_seen_ = spindle_stopped_ = false;
     until_overrides_ = 0;
     if (machine_.state() == MachineState::hold) (void)machine_.resume();
@@ -163,12 +164,12 @@ void GrblSession::reset(bool is_asked_for) {
         resets_ = false;
     }
     begin_again(true);
-    if (!may) push(may.error().message);
+    if (!may) answers_.push(may.error().message);
 }
 
 void GrblSession::begin_again(bool after_reset) {
     until_offset_ = until_overrides_ = 0;
-    put(banner);
+    answers_.put(banner);
     if (boot_ != Boot::reset) boot_ = after_reset ? Boot::reset : Boot::greeting;
 }
 
@@ -186,7 +187,7 @@ void GrblSession::watch_machine() {
     while (!n_words_.empty() && n_words_.front().first < machine_.stream().current_line()) n_words_.pop_front();
     const control::ProbeReport& probe = machine_.stream().last_probe();
     const bool probed = std::exchange(probes_reported_, probe.count) != probe.count;
-    if (probed && probe.begun) put(probe_text());
+    if (probed && probe.begun) answers_.put(probe_text());
     if (state != MachineState::error_stop) {
         stop_reported_ = false;
     } else if (!std::exchange(stop_reported_, true) && !(stopped_ && !has_alarm(machine_)) &&
@@ -195,7 +196,7 @@ void GrblSession::watch_machine() {
         alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial)
                                        : alarm_of_stop(machine_),
               true);
-        push(machine_.status().reason);
+        answers_.push(machine_.status().reason);
     }
 }
 

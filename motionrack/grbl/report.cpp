@@ -74,17 +74,17 @@ void GrblSession::report() {
     const bool machine_places = (shown & 1) != 0;
     if (!machine_places)
         for (std::size_t axis = 0; axis < position.size(); ++axis) position[axis] -= offset[axis];
-    put(fmt::format("<{}|{}Pos:{}", state_text(now), machine_places ? 'M' : 'W', values(position)));
+    answers_.put(fmt::format("<{}|{}Pos:{}", state_text(now), machine_places ? 'M' : 'W', values(position)));
     if ((shown & 2) != 0)
-        put(fmt::format("|Bf:{},{}", planner_blocks - std::min(planner_blocks, machine_.stream().moves()),
-                        intake_.free_bytes()));
+        answers_.put(fmt::format("|Bf:{},{}", planner_blocks - std::min(planner_blocks, machine_.stream().moves()),
+                                 intake_.free_bytes()));
     if (now == State::run && !n_words_.empty() && n_words_.front().first == machine_.stream().current_line())
-        put(fmt::format("|Ln:{}", n_words_.front().second));
+        answers_.put(fmt::format("|Ln:{}", n_words_.front().second));
     const double feed = own_.inches != 0 ? feed_now(machine_) / mm_per_inch : feed_now(machine_);
-    put(fmt::format("|FS:{:.{}f},{:.0f}", feed, own_.inches != 0 ? 1 : 0, spindle_rpm()));
-    put(pins());
-    put(counted_reports(now));
-    put(">\r\n");
+    answers_.put(fmt::format("|FS:{:.{}f},{:.0f}", feed, own_.inches != 0 ? 1 : 0, spindle_rpm()));
+    answers_.put(pins());
+    answers_.put(counted_reports(now));
+    answers_.put(">\r\n");
 }
 
 /// Work offset and overrides: after a change, and periodically; overrides never together with the offset.
