@@ -39,8 +39,8 @@ void GrblSession::receive(std::string_view bytes) {
             act(*what);
             continue;
         }
-        if (intake_.free_bytes() == 0) work();  // a long line without an end so far
-        intake_.put(byte);
+        if (reader_.free_bytes() == 0) work();  // a long line without an end so far
+        reader_.put(byte);
         if (c == '\n' || c == '\r') work();
     }
     if (status_wanted_) report();
@@ -65,8 +65,7 @@ void GrblSession::tick() {
 }
 
 void GrblSession::greet() {
-    intake_.clear();
-    line_.reset();
+    reader_.clear();
     if (doing_) doing_->silent = true;
     begin_again(false);
     work();
@@ -81,10 +80,10 @@ void GrblSession::work() {
         if (!settled()) return;
         if (boot_ != Boot::done) finish_boot();
         if (critical_ || asleep_) return;
-        if (!line_) line_ = intake_.next();
-        if (!line_ || must_wait(*line_)) return;
+        const Line* next = reader_.next();
+        if (next == nullptr || must_wait(*next)) return;
         if (status_wanted_) report();
-        const Line line = *std::exchange(line_, std::nullopt);
+        const Line line = reader_.take();
         if (line.too_long)
             answers_.answer(error_line_length);
         else
@@ -181,7 +180,7 @@ int GrblSession::refused(const Problem& problem) {
 /// A reset at standstill has cleared the modes that waiting lines relied on.
 void GrblSession::stopped(const operate::StopReport& report) {
     if (resets_) return;
-    const bool waits = held_ || door_ || line_ || doing_;
+    const bool waits = held_ || door_ || reader_.has_line() || doing_;
     if (report.releases && std::exchange(stopped_, false))
         return answers_.push(report.text + " The sender may continue");
     if (report.releases && !waits) return;
@@ -190,7 +189,7 @@ void GrblSession::stopped(const operate::StopReport& report) {
 }
 
 void GrblSession::lose_control(const std::string& to) {
-    if (operate::idle(machine_.state()) && !line_ && !doing_) return;
+    if (operate::idle(machine_.state()) && !reader_.has_line() && !doing_) return;
     lock(fmt::format("{} has taken control", to.empty() ? "Another user" : to));
 }
 

@@ -1,7 +1,7 @@
 // One Grbl port: receives bytes from a sender, returns bytes, and moves an operate::Machine.
 //
 //   bytes ─┬─ real-time ones ──► immediately: hold, resume, stop, overrides, "<Idle|MPos:..>"
-//          └─ lines ─► InputParser ─► one at a time ─┬─ $ commands ──► answers
+//          └─ lines ─► LineReader ──► one at a time ─┬─ $ commands ──► answers
 //                                                    └─ G-code, $J= ─► Machine::line, jog_to
 //   each line: one "ok" or "error:N"
 //
@@ -14,7 +14,7 @@
 #include <array>
 #include <deque>
 #include <motionrack/grbl/answers.hpp>
-#include <motionrack/grbl/input_parser.hpp>
+#include <motionrack/grbl/line_reader.hpp>
 #include <motionrack/grbl/numbers.hpp>
 #include <motionrack/grbl/session_settings.hpp>
 #include <motionrack/grbl/settings.hpp>
@@ -136,8 +136,7 @@ class GrblSession {
     std::array<std::string, 2> startup_lines_;
     std::string build_text_;
     Answers answers_;
-    InputParser intake_;
-    std::optional<Line> line_;  ///< next line, while it has to wait
+    LineReader reader_;
     std::optional<PendingLine> doing_;
     std::optional<control::gcode::Interpreter> check_;  ///< check mode
     std::int32_t line_number_ = 0;

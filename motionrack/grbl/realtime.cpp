@@ -150,8 +150,7 @@ void GrblSession::reset(bool is_asked_for) {
     homing_alarm_ = alarm_homing_reset;
     alarm_ = alarm_ || asleep_;
     if (doing_) finish_answer(error_none);
-    intake_.clear();
-    line_.reset();
+    reader_.clear();
     n_words_.clear();
     check_.reset();
     held_ = door_ = asleep_ = critical_ = stopped_ = was_g80_ = spindle_stopped_ = false;

@@ -77,7 +77,7 @@ void GrblSession::report() {
     answers_.put(fmt::format("<{}|{}Pos:{}", state_text(now), machine_places ? 'M' : 'W', values(position)));
     if ((shown & 2) != 0)
         answers_.put(fmt::format("|Bf:{},{}", planner_blocks - std::min(planner_blocks, machine_.stream().moves()),
-                                 intake_.free_bytes()));
+                                 reader_.free_bytes()));
     if (now == State::run && !n_words_.empty() && n_words_.front().first == machine_.stream().current_line())
         answers_.put(fmt::format("|Ln:{}", n_words_.front().second));
     const double feed = own_.inches != 0 ? feed_now(machine_) / mm_per_inch : feed_now(machine_);
