@@ -120,7 +120,7 @@ int GrblSession::store_startup_line(std::string_view text) {
     if (!take_number(text, number)) return error_bad_number;
     if (!take_equals(text) || (number != 0 && number != 1)) return error_unknown;
     if (!take_control(settings_, answers_)) return error_locked;
-    control::gcode::Interpreter trial = interpreter();
+    control::gcode::Interpreter trial = gcode_.interpreter();
     if (const auto read = trial.line(text, 0); !read) return static_cast<int>(read.error().status);
     if (starts_something(trial)) {
         answers_.push(
@@ -150,15 +150,14 @@ int GrblSession::restore(const std::string& text) {
 }
 
 int GrblSession::check_mode() {
-    if (check_) {
+    if (gcode_.is_checking()) {
         answers_.push("Disabled");
         answers_.answer(error_none);
         reset();
         return answer_later;
     }
     if (state() != State::idle) return error_not_idle;
-    check_ = machine_.stream().interpreter();
-    if (check_->modes().motion == control::gcode::no_motion && !was_g80_) (void)check_->line("G0", 0);
+    gcode_.begin_check();
     answers_.push("Enabled");
     return error_none;
 }
@@ -232,7 +231,7 @@ int GrblSession::number_of_homing() const {
 int GrblSession::jog(const std::string& text) {
     const State now = state();
     if (now != State::idle && now != State::jog) return error_not_idle;
-    const JogLine line = read_jog(text, interpreter(), settings_.axes);
+    const JogLine line = read_jog(text, gcode_.interpreter(), settings_.axes);
     if (line.error != error_none) return line.error;
     if (!take_control(settings_, answers_)) return error_locked;
     energise();

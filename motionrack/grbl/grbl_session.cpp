@@ -23,7 +23,7 @@ int decimal_of(const Problem& problem) {
 }  // namespace
 
 GrblSession::GrblSession(operate::Machine& machine, SessionSettings settings)
-    : machine_(machine), settings_(std::move(settings)) {
+    : machine_(machine), settings_(std::move(settings)), gcode_(machine) {
     settings_.axes = std::clamp(settings_.axes, 3, 4);
     never_enabled_ = machine_.state() == MachineState::disabled;
     watch_machine();
@@ -112,7 +112,7 @@ bool GrblSession::must_wait(const Line& line) {
     Block block;
     Problem problem;
     return control::gcode::scan_line(text, {}, block, problem) &&
-           must_stand_first(block, interpreter(), own_.laser != 0);
+           must_stand_first(block, gcode_.interpreter(), own_.laser != 0);
 }
 
 void GrblSession::carry_out(const std::string& text) {
@@ -133,12 +133,13 @@ int GrblSession::gcode(const std::string& text) {
     Problem problem;
     const bool good = scan_line(text, {}, block, problem);
     if (good && !grbl_has(block, settings_.axes)) return error_unsupported;
-    const Outcome<void> read =
-        check_ ? check_->line(text, 0) : give(text, good && block.has('N') ? static_cast<std::int32_t>(block['N']) : 0);
+    const Outcome<void> read = gcode_.is_checking()
+                                   ? gcode_.check(text)
+                                   : give(text, good && block.has('N') ? static_cast<std::int32_t>(block['N']) : 0);
     if (!read) return refused(read.error());
-    if (block.has_g(g_motion)) was_g80_ = block.g[g_motion] == 800;
+    gcode_.note_motion_mode(block);
     const bool ends = block.has_m(m_stop) && block.m[m_stop] >= 2;
-    if (check_) {
+    if (gcode_.is_checking()) {
         if (ends) answers_.push("Pgm End");
         return error_none;
     }
@@ -149,7 +150,6 @@ int GrblSession::gcode(const std::string& text) {
     return answer_later;
 }
 
-/// Gives a line to the machine, which starts in G0 like a Grbl.
 control::gcode::Outcome<void> GrblSession::give(const std::string& text, std::int32_t n_word) {
     if (!take_control(settings_, answers_)) {
         Problem problem;
@@ -157,17 +157,12 @@ control::gcode::Outcome<void> GrblSession::give(const std::string& text, std::in
         return tl::unexpected<Problem>(std::move(problem));
     }
     energise();
-    if (interpreter().modes().motion == control::gcode::no_motion && !was_g80_) (void)machine_.line("G0", line_number_);
-    const auto read = machine_.line(text, line_number_ + 1);
-    if (!read) return read;
-    ++line_number_;
-    if (n_word > 0) n_words_.push_back({line_number_, n_word});
-    return {};
+    return gcode_.execute(text, n_word);
 }
 
 int GrblSession::refused(const Problem& problem) {
     if (problem.status == GrblStatus::travel_exceeded) {
-        if (!check_ && machine_.state() == MachineState::moving) machine_.cancel();
+        if (!gcode_.is_checking() && machine_.state() == MachineState::moving) machine_.cancel();
         doing_ = PendingLine{PendingLine::What::leaving_travel};
         return answer_later;
     }
@@ -198,7 +193,7 @@ void GrblSession::lose_control(const std::string& to) {
 void GrblSession::lock(std::string_view why) {
     const bool locked_before = std::exchange(stopped_, true) || critical_;
     held_ = door_ = hold_seen_ = false;
-    n_words_.clear();
+    gcode_.drop_n_words();
     const bool alarms_later =
         doing_ && (doing_->what == PendingLine::What::homing || doing_->what == PendingLine::What::leaving_travel);
     if (!locked_before && !alarms_later) answers_.alarm(alarm_reset);

@@ -12,8 +12,8 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <motionrack/grbl/answers.hpp>
+#include <motionrack/grbl/gcode_lines.hpp>
 #include <motionrack/grbl/line_reader.hpp>
 #include <motionrack/grbl/numbers.hpp>
 #include <motionrack/grbl/session_settings.hpp>
@@ -126,9 +126,6 @@ class GrblSession {
     std::string parameters_text() const;
     std::string probe_text() const;
     double spindle_rpm() const;
-    const control::gcode::Interpreter& interpreter() const {
-        return check_ ? *check_ : machine_.stream().interpreter();
-    }
 
     operate::Machine& machine_;
     SessionSettings settings_;
@@ -137,10 +134,8 @@ class GrblSession {
     std::string build_text_;
     Answers answers_;
     LineReader reader_;
+    GcodeLines gcode_;
     std::optional<PendingLine> doing_;
-    std::optional<control::gcode::Interpreter> check_;  ///< check mode
-    std::int32_t line_number_ = 0;
-    std::deque<std::pair<std::int32_t, std::int32_t>> n_words_;  ///< N words of lines that are not executed yet
     Boot boot_ = Boot::done;
     int homing_alarm_ = alarm_homing_reset;  ///< alarm number of an aborted homing
     bool alarm_ = false;                     ///< until unlocking or homing
@@ -153,7 +148,6 @@ class GrblSession {
     bool jogging_ = false;              ///< the machine jogs, or decelerates after a jog
     bool stop_reported_ = false;        ///< the present error stop of the machine was reported
     std::int64_t probes_reported_ = 0;  ///< see control::ProbeReport::count
-    bool was_g80_ = false;              ///< no motion mode, because of G80
     bool status_wanted_ = false;
     bool spindle_stopped_ = false;
     int spindle_override_ = 100;

@@ -151,11 +151,9 @@ void GrblSession::reset(bool is_asked_for) {
     alarm_ = alarm_ || asleep_;
     if (doing_) finish_answer(error_none);
     reader_.clear();
-    n_words_.clear();
-    check_.reset();
-    held_ = door_ = asleep_ = critical_ = stopped_ = was_g80_ = spindle_stopped_ = false;
+    gcode_.reset();
+    held_ = door_ = asleep_ = critical_ = stopped_ = spindle_stopped_ = false;
     spindle_override_ = 100;
-    line_number_ = 0;
     if (may && (is_asked_for || !latched)) {
         machine_.set_overrides(1, 1);
         resets_ = true;
@@ -183,7 +181,7 @@ void GrblSession::watch_machine() {
     } else if (hold_seen_ && state != MachineState::stopping) {
         held_ = door_ = hold_seen_ = false;  // resumed or stopped by another client
     }
-    while (!n_words_.empty() && n_words_.front().first < machine_.stream().current_line()) n_words_.pop_front();
+    gcode_.drop_executed_n_words();
     const control::ProbeReport& probe = machine_.stream().last_probe();
     const bool probed = std::exchange(probes_reported_, probe.count) != probe.count;
     if (probed && probe.begun) answers_.put(probe_text());
@@ -221,7 +219,7 @@ State GrblSession::state() const {
     if (door_) return State::door;
     if (held_ || state == MachineState::hold) return State::hold;
     if (is_moving(machine_)) return State::run;
-    return check_ ? State::check : State::idle;
+    return gcode_.is_checking() ? State::check : State::idle;
 }
 
 }  // namespace motionrack::grbl

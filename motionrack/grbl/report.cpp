@@ -67,7 +67,7 @@ void GrblSession::report() {
     const State now = state();
     const operate::Status& status = machine_.status();
     const unsigned shown = static_cast<unsigned>(own_.report);
-    const control::Point& offset = interpreter().frame().offset;
+    const control::Point& offset = gcode_.interpreter().frame().offset;
     control::Point position = {};
     for (const operate::AxisStatus& axis : status.axes)
         position[static_cast<std::size_t>(machine_.rack().config().axis(axis.letter)->index())] = axis.commanded;
@@ -78,8 +78,8 @@ void GrblSession::report() {
     if ((shown & 2) != 0)
         answers_.put(fmt::format("|Bf:{},{}", planner_blocks - std::min(planner_blocks, machine_.stream().moves()),
                                  reader_.free_bytes()));
-    if (now == State::run && !n_words_.empty() && n_words_.front().first == machine_.stream().current_line())
-        answers_.put(fmt::format("|Ln:{}", n_words_.front().second));
+    if (const auto n_word = gcode_.executed_n_word(); now == State::run && n_word)
+        answers_.put(fmt::format("|Ln:{}", *n_word));
     const double feed = own_.inches != 0 ? feed_now(machine_) / mm_per_inch : feed_now(machine_);
     answers_.put(fmt::format("|FS:{:.{}f},{:.0f}", feed, own_.inches != 0 ? 1 : 0, spindle_rpm()));
     answers_.put(pins());
@@ -89,7 +89,7 @@ void GrblSession::report() {
 
 /// Work offset and overrides: after a change, and periodically; overrides never together with the offset.
 std::string GrblSession::counted_reports(State now) {
-    const control::Point& offset = interpreter().frame().offset;
+    const control::Point& offset = gcode_.interpreter().frame().offset;
     const Overrides overrides_now = overrides();
     if (offset != std::exchange(reported_offset_, offset)) until_offset_ = 0;
     if (overrides_now != std::exchange(reported_overrides_, overrides_now)) until_overrides_ = 0;
@@ -146,10 +146,9 @@ double GrblSession::spindle_rpm() const {
 
 std::string GrblSession::modes_text() const {
     using control::gcode::Spindle;
-    const control::gcode::ModalState& modes = interpreter().modes();
-    const int motion = modes.motion != control::gcode::no_motion ? modes.motion / 10 : was_g80_ ? 80 : 0;
+    const control::gcode::ModalState& modes = gcode_.interpreter().modes();
     std::string out =
-        fmt::format("[GC:G{} G{} G{} G{} G{} G{}", motion,
+        fmt::format("[GC:G{} G{} G{} G{} G{} G{}", gcode_.motion_mode(),
                     modes.system < 6 ? fmt::format("{}", 54 + modes.system) : fmt::format("59.{}", modes.system - 5),
                     17 + modes.plane, modes.inch ? 20 : 21, modes.incremental ? 91 : 90, modes.inverse_time ? 93 : 94);
     out += modes.spindle == Spindle::off ? " M5" : modes.spindle == Spindle::clockwise ? " M3" : " M4";
@@ -164,7 +163,7 @@ std::string GrblSession::modes_text() const {
 }
 
 std::string GrblSession::parameters_text() const {
-    const control::gcode::WorkFrame& frame = interpreter().frame();
+    const control::gcode::WorkFrame& frame = gcode_.interpreter().frame();
     std::string out;
     for (std::size_t system = 0; system < control::gcode::grbl_work_system_count; ++system)
         out += fmt::format("[G{}:{}]\r\n", 54 + system, values(frame.work[system]));
@@ -176,7 +175,7 @@ std::string GrblSession::parameters_text() const {
 
 /// Machine coordinates of the last contact; the final 0 means no contact.
 std::string GrblSession::probe_text() const {
-    const control::gcode::WorkFrame& frame = interpreter().frame();
+    const control::gcode::WorkFrame& frame = gcode_.interpreter().frame();
     return fmt::format("[PRB:{}:{}]\r\n", values(frame.probe), frame.probe_hit ? 1 : 0);
 }
 

@@ -1,0 +1,48 @@
+// G-code lines of a sender: executed by the machine, or in check mode read only.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <motionrack/operate/machine.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace motionrack::grbl {
+
+class GcodeLines {
+  public:
+    /// The machine must outlive this.
+    explicit GcodeLines(operate::Machine& machine) : machine_(machine) {}
+
+    /// The parser state: that of the machine, or of the check mode.
+    const control::gcode::Interpreter& interpreter() const {
+        return check_ ? *check_ : machine_.stream().interpreter();
+    }
+    /// The motion mode in $G: N of GN. 80 after G80.
+    int motion_mode() const;
+    /// N word of the line that is executed.
+    std::optional<std::int32_t> executed_n_word() const;
+
+    bool is_checking() const { return check_.has_value(); }
+    void begin_check();
+    /// Reads a line. Requires check mode.
+    control::gcode::Outcome<void> check(const std::string& text) { return check_->line(text, 0); }
+    /// Gives a line to the machine, which starts in G0 like a Grbl.
+    control::gcode::Outcome<void> execute(const std::string& text, std::int32_t n_word);
+    /// Call for each line that was accepted.
+    void note_motion_mode(const control::gcode::Block& block);
+
+    void drop_executed_n_words();
+    void drop_n_words() { n_words_.clear(); }
+    void reset();
+
+  private:
+    operate::Machine& machine_;
+    std::optional<control::gcode::Interpreter> check_;  ///< check mode
+    std::int32_t line_number_ = 0;
+    std::deque<std::pair<std::int32_t, std::int32_t>> n_words_;  ///< N words of lines that are not executed yet
+    bool was_g80_ = false;                                       ///< no motion mode, because of G80
+};
+
+}  // namespace motionrack::grbl
