@@ -74,7 +74,7 @@ int GrblSession::command_at_rest(const std::string& text) {
             if (text != "$SLP") return error_unknown;
             answers_.answer(error_none);
             answers_.push("Sleeping");
-            asleep_ = true;
+            state_.sleep();
             return answer_later;
         case 'I':
             if (text.size() > 2 && text[2] != '=') return error_unknown;
@@ -170,7 +170,8 @@ int GrblSession::unlock() {
     if (!take_control(settings_, answers_)) return error_locked;
     if (machine_.state() == MachineState::error_stop)  // after a STOP; others need the sender's reset
         resets_ = true, machine_.reset(settings_.source("$X")), resets_ = false;
-    alarm_ = stopped_ = false;
+    state_.end_alarm();
+    (void)state_.release();
     doing_ = PendingLine{PendingLine::What::unlocking};
     return answer_later;
 }
@@ -189,7 +190,7 @@ int GrblSession::home() {
         answers_.push(begun.error().message);
         return error_locked;
     }
-    stopped_ = false;
+    (void)state_.release();
     doing_ = PendingLine{PendingLine::What::homing};
     return answer_later;
 }
@@ -198,13 +199,13 @@ int GrblSession::home() {
 bool GrblSession::finish_homing() {
     const Result<void>& ended = machine_.last_homing()->ended;
     if (ended) {
-        alarm_ = false;
-        if (locked() && !std::exchange(doing_->declared, true)) {
+        state_.end_alarm();
+        if (state_.is_locked() && !std::exchange(doing_->declared, true)) {
             declare_positions();
             return false;
         }
-        if (!stopped_) startup();
-        finish_answer(stopped_ ? error_locked : error_none);
+        if (!state_.is_stopped()) startup();
+        finish_answer(state_.is_stopped() ? error_locked : error_none);
         return true;
     }
     if (ended.error().kind == ErrorKind::refused) {
@@ -234,7 +235,7 @@ int GrblSession::jog(const std::string& text) {
     const JogLine line = read_jog(text, gcode_.interpreter(), settings_.axes);
     if (line.error != error_none) return line.error;
     if (!take_control(settings_, answers_)) return error_locked;
-    energise();
+    state_.enable_new_machine();
     if (const Result<void> begun = machine_.jog_to(line.target, line.feed); !begun) {
         answers_.push(begun.error().message);
         return error_locked;

@@ -23,9 +23,8 @@ int decimal_of(const Problem& problem) {
 }  // namespace
 
 GrblSession::GrblSession(operate::Machine& machine, SessionSettings settings)
-    : machine_(machine), settings_(std::move(settings)), gcode_(machine) {
+    : machine_(machine), settings_(std::move(settings)), gcode_(machine), state_(machine, gcode_) {
     settings_.axes = std::clamp(settings_.axes, 3, 4);
-    never_enabled_ = machine_.state() == MachineState::disabled;
     watch_machine();
     (void)answers_.take();
 }
@@ -79,7 +78,7 @@ void GrblSession::work() {
         if (doing_ && !finish()) return;
         if (!settled()) return;
         if (boot_ != Boot::done) finish_boot();
-        if (critical_ || asleep_) return;
+        if (state_.needs_reset() || state_.is_asleep()) return;
         const Line* next = reader_.next();
         if (next == nullptr || must_wait(*next)) return;
         if (status_wanted_) report();
@@ -156,7 +155,7 @@ control::gcode::Outcome<void> GrblSession::give(const std::string& text, std::in
         problem.kind = ErrorKind::refused;
         return tl::unexpected<Problem>(std::move(problem));
     }
-    energise();
+    state_.enable_new_machine();
     return gcode_.execute(text, n_word);
 }
 
@@ -175,11 +174,10 @@ int GrblSession::refused(const Problem& problem) {
 /// A reset at standstill has cleared the modes that waiting lines relied on.
 void GrblSession::stopped(const operate::StopReport& report) {
     if (resets_) return;
-    const bool waits = held_ || door_ || reader_.has_line() || doing_;
-    if (report.releases && std::exchange(stopped_, false))
-        return answers_.push(report.text + " The sender may continue");
+    const bool waits = state_.is_held() || reader_.has_line() || doing_;
+    if (report.releases && state_.release()) return answers_.push(report.text + " The sender may continue");
     if (report.releases && !waits) return;
-    never_enabled_ = false;
+    state_.lock_disabled_machine();
     lock(report.text);
 }
 
@@ -191,8 +189,7 @@ void GrblSession::lose_control(const std::string& to) {
 /// Waiting lines are answered like all later ones: a line whose end alone is dropped would become another line. A
 /// homing gives its alarm when it has ended, as does a line past the travel.
 void GrblSession::lock(std::string_view why) {
-    const bool locked_before = std::exchange(stopped_, true) || critical_;
-    held_ = door_ = hold_seen_ = false;
+    const bool locked_before = state_.lock();
     gcode_.drop_n_words();
     const bool alarms_later =
         doing_ && (doing_->what == PendingLine::What::homing || doing_->what == PendingLine::What::leaving_travel);
@@ -206,7 +203,8 @@ void GrblSession::lock(std::string_view why) {
 /// Returns true if the previous line is finished.
 bool GrblSession::finish() {
     const MachineState state = machine_.state();
-    if (critical_ || (state == MachineState::error_stop && doing_->what != PendingLine::What::homing)) return false;
+    if (state_.needs_reset() || (state == MachineState::error_stop && doing_->what != PendingLine::What::homing))
+        return false;
     const bool is_stationary = settled() && state != MachineState::moving && state != MachineState::hold;
     if (!is_stationary) return false;
     switch (doing_->what) {
@@ -243,11 +241,12 @@ void GrblSession::end_program() {
 
 void GrblSession::finish_boot() {
     const bool after_reset = std::exchange(boot_, Boot::done) == Boot::reset;
-    if (machine_.state() == MachineState::error_stop && !(after_reset && alarm_ && is_stop_ordered(machine_))) {
-        critical_ = true;
+    if (machine_.state() == MachineState::error_stop &&
+        !(after_reset && state_.needs_unlock() && is_stop_ordered(machine_))) {
+        state_.require_reset();
         answers_.push(machine_.status().reason);
     }
-    if (locked())
+    if (state_.is_locked())
         answers_.push("'$H'|'$X' to unlock");
     else if (after_reset)
         startup();
@@ -263,10 +262,10 @@ void GrblSession::startup() {
 }
 
 void GrblSession::alarm(int number, bool needs_reset) {
-    alarm_ = true;
+    state_.begin_alarm();
     answers_.alarm(number);
     if (!needs_reset) return;
-    critical_ = true;
+    state_.require_reset();
     answers_.push("Reset to continue");
 }
 

@@ -14,6 +14,7 @@
 #include <array>
 #include <motionrack/grbl/answers.hpp>
 #include <motionrack/grbl/gcode_lines.hpp>
+#include <motionrack/grbl/grbl_state.hpp>
 #include <motionrack/grbl/line_reader.hpp>
 #include <motionrack/grbl/numbers.hpp>
 #include <motionrack/grbl/session_settings.hpp>
@@ -24,9 +25,6 @@
 #include <string_view>
 
 namespace motionrack::grbl {
-
-/// Machine states as defined by Grbl.
-enum class State : std::uint8_t { idle, run, hold, jog, alarm, door, check, home, sleep };
 
 class GrblSession {
   public:
@@ -52,7 +50,7 @@ class GrblSession {
     /// Returns the pending output, whole lines, and clears it.
     std::string take_output() { return answers_.take(); }
 
-    State state() const;
+    State state() const { return state_.now(); }
     const SessionSettingValues& own() const { return own_; }
 
     /// Percent.
@@ -113,8 +111,6 @@ class GrblSession {
     void reset(bool is_asked_for = false);
     void begin_again(bool after_reset);
     void watch_machine();
-    bool locked() const;
-    void energise();
     // report.cpp
     void report();
     std::string state_text(State now) const;
@@ -135,19 +131,12 @@ class GrblSession {
     Answers answers_;
     LineReader reader_;
     GcodeLines gcode_;
+    GrblState state_;
     std::optional<PendingLine> doing_;
     Boot boot_ = Boot::done;
     int homing_alarm_ = alarm_homing_reset;  ///< alarm number of an aborted homing
-    bool alarm_ = false;                     ///< until unlocking or homing
-    bool critical_ = false;                  ///< until a reset
-    bool stopped_ = false;                   ///< stopped by another client, until unlocking or reset
     bool resets_ = false;                    ///< the reported stop is the session's own
-    bool never_enabled_ = false;             ///< the machine has never been enabled
-    bool held_ = false, door_ = false, asleep_ = false;
-    bool hold_seen_ = false;            ///< the machine has reached its hold
-    bool jogging_ = false;              ///< the machine jogs, or decelerates after a jog
-    bool stop_reported_ = false;        ///< the present error stop of the machine was reported
-    std::int64_t probes_reported_ = 0;  ///< see control::ProbeReport::count
+    std::int64_t probes_reported_ = 0;       ///< see control::ProbeReport::count
     bool status_wanted_ = false;
     bool spindle_stopped_ = false;
     int spindle_override_ = 100;

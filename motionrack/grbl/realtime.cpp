@@ -100,10 +100,10 @@ void GrblSession::override_by(Realtime what) {
 void GrblSession::hold() {
     switch (state()) {
         case State::idle:
-            held_ = true;
+            state_.hold(true);
             break;
         case State::run:
-            held_ = machine_.hold().has_value();
+            state_.hold(machine_.hold().has_value());
             break;
         case State::jog:
             machine_.cancel();
@@ -127,14 +127,14 @@ void GrblSession::open_door() {
     answers_.push("Check Door");
     if (now == State::jog) machine_.cancel();
     if (now == State::run) (void)machine_.hold();
-    door_ = true;
-    held_ = false;
+    state_.open_door();
 }
 
 void GrblSession::resume() {
     const State now = state();
     if ((now != State::hold && now != State::door) || is_moving(machine_) || !take_control(settings_, answers_)) return;
-    held_ = door_ = hold_seen_ = spindle_stopped_ = false;
+    state_.end_hold();
+    spindle_stopped_ = false;
     until_overrides_ = 0;
     if (machine_.state() == MachineState::hold) (void)machine_.resume();
 }
@@ -148,11 +148,11 @@ void GrblSession::reset(bool is_asked_for) {
     const int number = state == MachineState::homing ? homing_alarm_ : is_moving(machine_) ? alarm_reset : alarm_none;
     if (may && number != alarm_none) alarm(number, false);
     homing_alarm_ = alarm_homing_reset;
-    alarm_ = alarm_ || asleep_;
     if (doing_) finish_answer(error_none);
     reader_.clear();
     gcode_.reset();
-    held_ = door_ = asleep_ = critical_ = stopped_ = spindle_stopped_ = false;
+    state_.reset();
+    spindle_stopped_ = false;
     spindle_override_ = 100;
     if (may && (is_asked_for || !latched)) {
         machine_.set_overrides(1, 1);
@@ -173,53 +173,19 @@ void GrblSession::begin_again(bool after_reset) {
 // ---- changes of the machine
 
 void GrblSession::watch_machine() {
-    const MachineState state = machine_.state();
-    never_enabled_ = never_enabled_ && state == MachineState::disabled;
-    jogging_ = state == MachineState::jogging || (jogging_ && state == MachineState::stopping);
-    if (state == MachineState::hold) {
-        hold_seen_ = held_ || door_;
-    } else if (hold_seen_ && state != MachineState::stopping) {
-        held_ = door_ = hold_seen_ = false;  // resumed or stopped by another client
-    }
+    state_.watch_machine();
     gcode_.drop_executed_n_words();
     const control::ProbeReport& probe = machine_.stream().last_probe();
     const bool probed = std::exchange(probes_reported_, probe.count) != probe.count;
     if (probed && probe.begun) answers_.put(probe_text());
-    if (state != MachineState::error_stop) {
-        stop_reported_ = false;
-    } else if (!std::exchange(stop_reported_, true) && !(stopped_ && !has_alarm(machine_)) &&
-               !(doing_ && doing_->what == PendingLine::What::homing)) {
-        held_ = door_ = hold_seen_ = false;
+    if (state_.enters_error_stop() && !(state_.is_stopped() && !has_alarm(machine_)) &&
+        !(doing_ && doing_->what == PendingLine::What::homing)) {
+        state_.end_hold();
         alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial)
                                        : alarm_of_stop(machine_),
               true);
         answers_.push(machine_.status().reason);
     }
-}
-
-/// Drives are enabled by the client that moves them, not by a connection.
-void GrblSession::energise() {
-    if (never_enabled_) (void)machine_.enable(true);
-}
-
-bool GrblSession::locked() const {
-    const MachineState state = machine_.state();
-    if (alarm_ || stopped_ || (state == MachineState::disabled && !never_enabled_)) return true;
-    if (state == MachineState::error_stop || state == MachineState::service) return true;
-    return std::ranges::any_of(machine_.rack().config().axes,
-                               [&](const rack::RackAxis& axis) { return !machine_.position_valid(axis); });
-}
-
-State GrblSession::state() const {
-    const MachineState state = machine_.state();
-    if (asleep_) return State::sleep;
-    if (state == MachineState::homing) return State::home;
-    if (critical_ || locked()) return State::alarm;
-    if (state == MachineState::jogging || (jogging_ && state == MachineState::stopping)) return State::jog;
-    if (door_) return State::door;
-    if (held_ || state == MachineState::hold) return State::hold;
-    if (is_moving(machine_)) return State::run;
-    return gcode_.is_checking() ? State::check : State::idle;
 }
 
 }  // namespace motionrack::grbl

@@ -1,0 +1,64 @@
+// The state of a Grbl: that of the machine, and what a Grbl has in addition, such as alarms, a door and sleep.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/grbl/gcode_lines.hpp>
+#include <motionrack/operate/machine.hpp>
+
+namespace motionrack::grbl {
+
+/// Machine states as defined by Grbl.
+enum class State : std::uint8_t { idle, run, hold, jog, alarm, door, check, home, sleep };
+
+class GrblState {
+  public:
+    /// Both must outlive this.
+    GrblState(operate::Machine& machine, const GcodeLines& gcode);
+
+    State now() const;
+    /// Returns true if lines that move are refused until the machine is unlocked or homed.
+    bool is_locked() const;
+    bool needs_unlock() const { return alarm_; }
+    bool needs_reset() const { return critical_; }
+    bool is_stopped() const { return stopped_; }
+    bool is_asleep() const { return asleep_; }
+    bool is_held() const { return held_ || door_; }
+
+    /// Follows the machine: jogs, and holds that another client ends.
+    void watch_machine();
+    /// Returns true once for each error stop of the machine.
+    bool enters_error_stop();
+    /// Enables a machine that was never enabled, since a Grbl has no such state.
+    void enable_new_machine();
+    /// A machine that was never enabled is in Alarm from now on, like one that was disabled later.
+    void lock_disabled_machine() { never_enabled_ = false; }
+
+    /// Begins a hold, or if it was refused ends it.
+    void hold(bool begun) { held_ = begun; }
+    void open_door();
+    void end_hold() { held_ = door_ = hold_seen_ = false; }
+    void sleep() { asleep_ = true; }
+    void begin_alarm() { alarm_ = true; }
+    void end_alarm() { alarm_ = false; }
+    void require_reset() { critical_ = true; }
+    /// Begins a lock after a stop by another client. Returns true if one of these, or an alarm until a reset, held
+    /// before.
+    bool lock();
+    /// Ends the lock after a stop by another client. Returns false if there was none.
+    bool release();
+    void reset();
+
+  private:
+    operate::Machine& machine_;
+    const GcodeLines& gcode_;
+    bool alarm_ = false;          ///< until unlocking or homing
+    bool critical_ = false;       ///< until a reset
+    bool stopped_ = false;        ///< stopped by another client, until unlocking or reset
+    bool never_enabled_ = false;  ///< the machine has never been enabled
+    bool held_ = false, door_ = false, asleep_ = false;
+    bool hold_seen_ = false;      ///< the machine has reached its hold
+    bool jogging_ = false;        ///< the machine jogs, or decelerates after a jog
+    bool stop_reported_ = false;  ///< the present error stop of the machine was reported
+};
+
+}  // namespace motionrack::grbl
