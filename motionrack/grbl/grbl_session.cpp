@@ -23,7 +23,7 @@ int decimal_of(const Problem& problem) {
 }  // namespace
 
 GrblSession::GrblSession(operate::Machine& machine, SessionSettings settings)
-    : machine_(machine), settings_(std::move(settings)), gcode_(machine), state_(machine, gcode_) {
+    : machine_(machine), settings_(std::move(settings)), gcode_(machine), state_(machine, gcode_), overrides_(machine) {
     settings_.axes = std::clamp(settings_.axes, 3, 4);
     watch_machine();
     (void)answers_.take();
@@ -234,8 +234,7 @@ void GrblSession::finish_answer(int error) {
 }
 
 void GrblSession::end_program() {
-    spindle_override_ = 100;
-    machine_.set_overrides(1, 1);
+    overrides_.end_program();
     if (!doing_->silent) answers_.push("Pgm End");
 }
 

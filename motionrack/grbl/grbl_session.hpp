@@ -17,6 +17,7 @@
 #include <motionrack/grbl/grbl_state.hpp>
 #include <motionrack/grbl/line_reader.hpp>
 #include <motionrack/grbl/numbers.hpp>
+#include <motionrack/grbl/override_state.hpp>
 #include <motionrack/grbl/session_settings.hpp>
 #include <motionrack/grbl/settings.hpp>
 #include <motionrack/operate/machine.hpp>
@@ -52,13 +53,6 @@ class GrblSession {
 
     State state() const { return state_.now(); }
     const SessionSettingValues& own() const { return own_; }
-
-    /// Percent.
-    struct Overrides {
-        int feed = 100, rapid = 100, spindle = 100;
-        friend bool operator==(const Overrides&, const Overrides&) = default;
-    };
-    Overrides overrides() const;
 
   private:
     /// An executed line whose answer is pending.
@@ -104,7 +98,6 @@ class GrblSession {
     void act(Realtime what);
     bool may_switch_coolant();
     void switch_coolant(bool mist, bool flood);
-    void override_by(Realtime what);
     void hold();
     void open_door();
     void resume();
@@ -132,14 +125,13 @@ class GrblSession {
     LineReader reader_;
     GcodeLines gcode_;
     GrblState state_;
+    OverrideState overrides_;
     std::optional<PendingLine> doing_;
     Boot boot_ = Boot::done;
     int homing_alarm_ = alarm_homing_reset;  ///< alarm number of an aborted homing
     bool resets_ = false;                    ///< the reported stop is the session's own
     std::int64_t probes_reported_ = 0;       ///< see control::ProbeReport::count
     bool status_wanted_ = false;
-    bool spindle_stopped_ = false;
-    int spindle_override_ = 100;
     int until_offset_ = 0, until_overrides_ = 0;  ///< countdown of reports
     control::Point reported_offset_ = {};
     Overrides reported_overrides_;

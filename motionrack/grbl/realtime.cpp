@@ -13,29 +13,6 @@ namespace {
 
 constexpr std::string_view banner = "\r\nGrbl 1.1h ['$' for help]\r\n";
 
-struct OverrideStep {
-    Realtime what;
-    int GrblSession::Overrides::*which;
-    bool absolute;
-    int percent;
-};
-constexpr std::array<OverrideStep, 13> override_steps = {{
-    {Realtime::feed_100, &GrblSession::Overrides::feed, true, 100},
-    {Realtime::feed_plus_10, &GrblSession::Overrides::feed, false, 10},
-    {Realtime::feed_minus_10, &GrblSession::Overrides::feed, false, -10},
-    {Realtime::feed_plus_1, &GrblSession::Overrides::feed, false, 1},
-    {Realtime::feed_minus_1, &GrblSession::Overrides::feed, false, -1},
-    {Realtime::rapid_100, &GrblSession::Overrides::rapid, true, 100},
-    {Realtime::rapid_50, &GrblSession::Overrides::rapid, true, 50},
-    {Realtime::rapid_25, &GrblSession::Overrides::rapid, true, 25},
-    {Realtime::spindle_100, &GrblSession::Overrides::spindle, true, 100},
-    {Realtime::spindle_plus_10, &GrblSession::Overrides::spindle, false, 10},
-    {Realtime::spindle_minus_10, &GrblSession::Overrides::spindle, false, -10},
-    {Realtime::spindle_plus_1, &GrblSession::Overrides::spindle, false, 1},
-    {Realtime::spindle_minus_1, &GrblSession::Overrides::spindle, false, -1},
-}};
-constexpr int min_override = 10, max_override = 200;
-
 }  // namespace
 
 void GrblSession::act(Realtime what) {
@@ -59,7 +36,7 @@ void GrblSession::act(Realtime what) {
         case Realtime::spindle_stop:
             if (state() == State::hold && status.spindle != control::gcode::Spindle::off &&
                 take_control(settings_, answers_)) {
-                spindle_stopped_ = !spindle_stopped_;
+                overrides_.toggle_spindle_stop();
                 until_overrides_ = 0;
             }
             return;
@@ -70,7 +47,8 @@ void GrblSession::act(Realtime what) {
             if (may_switch_coolant()) switch_coolant(!status.mist, status.flood);
             return;
         default:
-            return override_by(what);
+            if (is_override(what) && take_control(settings_, answers_)) overrides_.change(what);
+            return;
     }
 }
 
@@ -82,17 +60,6 @@ bool GrblSession::may_switch_coolant() {
 void GrblSession::switch_coolant(bool mist, bool flood) {
     machine_.set_coolant(mist, flood);
     until_overrides_ = 0;
-}
-
-void GrblSession::override_by(Realtime what) {
-    const auto step = std::find_if(override_steps.begin(), override_steps.end(),
-                                   [&](const OverrideStep& one) { return one.what == what; });
-    if (step == override_steps.end() || !take_control(settings_, answers_)) return;
-    Overrides now = overrides();
-    int& value = now.*step->which;
-    value = std::clamp(step->absolute ? step->percent : value + step->percent, min_override, max_override);
-    spindle_override_ = now.spindle;
-    machine_.set_overrides(now.feed / 100.0, now.rapid / 100.0);
 }
 
 // ---- hold, door, reset
@@ -134,7 +101,7 @@ void GrblSession::resume() {
     const State now = state();
     if ((now != State::hold && now != State::door) || is_moving(machine_) || !take_control(settings_, answers_)) return;
     state_.end_hold();
-    spindle_stopped_ = false;
+    overrides_.end_spindle_stop();
     until_overrides_ = 0;
     if (machine_.state() == MachineState::hold) (void)machine_.resume();
 }
@@ -152,8 +119,7 @@ void GrblSession::reset(bool is_asked_for) {
     reader_.clear();
     gcode_.reset();
     state_.reset();
-    spindle_stopped_ = false;
-    spindle_override_ = 100;
+    overrides_.reset_spindle();
     if (may && (is_asked_for || !latched)) {
         machine_.set_overrides(1, 1);
         resets_ = true;

@@ -90,7 +90,7 @@ void GrblSession::report() {
 /// Work offset and overrides: after a change, and periodically; overrides never together with the offset.
 std::string GrblSession::counted_reports(State now) {
     const control::Point& offset = gcode_.interpreter().frame().offset;
-    const Overrides overrides_now = overrides();
+    const Overrides overrides_now = overrides_.now();
     if (offset != std::exchange(reported_offset_, offset)) until_offset_ = 0;
     if (overrides_now != std::exchange(reported_overrides_, overrides_now)) until_overrides_ = 0;
     std::string accessories_now = accessories();
@@ -127,21 +127,18 @@ std::string GrblSession::accessories() const {
     using control::gcode::Spindle;
     const operate::Status& status = machine_.status();
     std::string out;
-    if (status.spindle != Spindle::off && !spindle_stopped_) out += status.spindle == Spindle::clockwise ? 'S' : 'C';
+    if (status.spindle != Spindle::off && !overrides_.is_spindle_stopped())
+        out += status.spindle == Spindle::clockwise ? 'S' : 'C';
     if (status.flood) out += 'F';
     if (status.mist) out += 'M';
     return out;
 }
 
-GrblSession::Overrides GrblSession::overrides() const {
-    return {static_cast<int>(std::lround(machine_.feed_override() * 100)),
-            static_cast<int>(std::lround(machine_.rapid_override() * 100)), spindle_override_};
-}
-
 double GrblSession::spindle_rpm() const {
     const operate::Status& status = machine_.status();
-    if (status.spindle == control::gcode::Spindle::off || spindle_stopped_ || status.spindle_rpm == 0) return 0;
-    return std::max(own_.min_rpm, std::min(own_.max_rpm, status.spindle_rpm * spindle_override_ / 100));
+    if (status.spindle == control::gcode::Spindle::off || overrides_.is_spindle_stopped() || status.spindle_rpm == 0)
+        return 0;
+    return std::max(own_.min_rpm, std::min(own_.max_rpm, status.spindle_rpm * overrides_.spindle_percent() / 100));
 }
 
 std::string GrblSession::modes_text() const {
