@@ -49,7 +49,7 @@ int GrblSession::command(const std::string& text) {
             return error_none;
         case 'G':
             if (text.size() > 2) return error_unknown;
-            answers_.put(modes_text());
+            answers_.put(reports_.parser_state());
             return error_none;
         case 'C':
             return text.size() > 2 ? int{error_unknown} : check_mode();
@@ -66,7 +66,7 @@ int GrblSession::command_at_rest(const std::string& text) {
     switch (text[1]) {
         case '#':
             if (text.size() > 2) return error_unknown;
-            answers_.put(parameters_text());
+            answers_.put(reports_.parameters());
             return error_none;
         case 'H':
             return text.size() > 2 ? int{error_unknown} : home();

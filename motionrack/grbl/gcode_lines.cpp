@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <motionrack/grbl/gcode_lines.hpp>
 
 namespace motionrack::grbl {
@@ -10,6 +11,14 @@ int GcodeLines::motion_mode() const {
 std::optional<std::int32_t> GcodeLines::executed_n_word() const {
     if (n_words_.empty() || n_words_.front().first != machine_.stream().current_line()) return std::nullopt;
     return n_words_.front().second;
+}
+
+bool GcodeLines::has_room() const {
+    return machine_.has_room() && machine_.stream().moves() < planner_blocks;
+}
+
+std::size_t GcodeLines::free_blocks() const {
+    return planner_blocks - std::min(planner_blocks, machine_.stream().moves());
 }
 
 void GcodeLines::begin_check() {

@@ -1,6 +1,7 @@
 // G-code lines of a sender: executed by the machine, or in check mode read only.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <motionrack/operate/machine.hpp>
@@ -9,6 +10,8 @@
 #include <utility>
 
 namespace motionrack::grbl {
+
+inline constexpr std::size_t planner_blocks = 15;  ///< number of blocks a sender can fill
 
 class GcodeLines {
   public:
@@ -23,6 +26,10 @@ class GcodeLines {
     int motion_mode() const;
     /// N word of the line that is executed.
     std::optional<std::int32_t> executed_n_word() const;
+
+    /// Returns true if the machine accepts a line and a block is free.
+    bool has_room() const;
+    std::size_t free_blocks() const;
 
     bool is_checking() const { return check_.has_value(); }
     void begin_check();

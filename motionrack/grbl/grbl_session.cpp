@@ -23,7 +23,12 @@ int decimal_of(const Problem& problem) {
 }  // namespace
 
 GrblSession::GrblSession(operate::Machine& machine, SessionSettings settings)
-    : machine_(machine), settings_(std::move(settings)), gcode_(machine), state_(machine, gcode_), overrides_(machine) {
+    : machine_(machine),
+      settings_(std::move(settings)),
+      gcode_(machine),
+      state_(machine, gcode_),
+      overrides_(machine),
+      reports_({machine, settings_, own_, reader_, gcode_, state_, overrides_}, answers_) {
     settings_.axes = std::clamp(settings_.axes, 3, 4);
     watch_machine();
     (void)answers_.take();
@@ -42,7 +47,7 @@ void GrblSession::receive(std::string_view bytes) {
         reader_.put(byte);
         if (c == '\n' || c == '\r') work();
     }
-    if (status_wanted_) report();
+    reports_.answer_request();
 }
 
 void GrblSession::observe(std::string_view bytes) {
@@ -54,13 +59,13 @@ void GrblSession::observe(std::string_view bytes) {
                  what == Realtime::door || what == Realtime::jog_cancel)
             act(*what);
     }
-    if (status_wanted_) report();
+    reports_.answer_request();
 }
 
 void GrblSession::tick() {
     watch_machine();
     work();
-    if (status_wanted_) report();
+    reports_.answer_request();
 }
 
 void GrblSession::greet() {
@@ -81,7 +86,7 @@ void GrblSession::work() {
         if (state_.needs_reset() || state_.is_asleep()) return;
         const Line* next = reader_.next();
         if (next == nullptr || must_wait(*next)) return;
-        if (status_wanted_) report();
+        reports_.answer_request();
         const Line line = reader_.take();
         if (line.too_long)
             answers_.answer(error_line_length);
@@ -96,18 +101,14 @@ bool GrblSession::settled() const {
     return !machine_.has_orders() && state != MachineState::stopping && state != MachineState::homing;
 }
 
-bool GrblSession::has_room() const {
-    return machine_.has_room() && machine_.stream().moves() < planner_blocks;
-}
-
 bool GrblSession::must_wait(const Line& line) {
     const std::string& text = line.text;
     if (line.too_long || text.empty()) return false;
     const State now = state();
-    if (text[0] == '$') return now == State::jog && text.compare(0, 3, "$J=") == 0 && !has_room();
+    if (text[0] == '$') return now == State::jog && text.compare(0, 3, "$J=") == 0 && !gcode_.has_room();
     if (now == State::hold || now == State::door) return true;
     if (now != State::run || machine_.status().program_runs) return false;
-    if (!has_room()) return true;
+    if (!gcode_.has_room()) return true;
     Block block;
     Problem problem;
     return control::gcode::scan_line(text, {}, block, problem) &&

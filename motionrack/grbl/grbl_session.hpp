@@ -18,6 +18,7 @@
 #include <motionrack/grbl/line_reader.hpp>
 #include <motionrack/grbl/numbers.hpp>
 #include <motionrack/grbl/override_state.hpp>
+#include <motionrack/grbl/reports.hpp>
 #include <motionrack/grbl/session_settings.hpp>
 #include <motionrack/grbl/settings.hpp>
 #include <motionrack/operate/machine.hpp>
@@ -29,8 +30,6 @@ namespace motionrack::grbl {
 
 class GrblSession {
   public:
-    static constexpr std::size_t planner_blocks = 15;  ///< number of blocks a sender can fill
-
     /// The first line that moves the machine enables it if it was never enabled, since Grbl has no such state. The
     /// machine must outlive this.
     GrblSession(operate::Machine& machine, SessionSettings settings);
@@ -68,7 +67,6 @@ class GrblSession {
     // session.cpp: lines
     void work();
     bool settled() const;
-    bool has_room() const;
     bool must_wait(const Line& line);
     void carry_out(const std::string& text);
     int gcode(const std::string& text);
@@ -104,17 +102,6 @@ class GrblSession {
     void reset(bool is_asked_for = false);
     void begin_again(bool after_reset);
     void watch_machine();
-    // report.cpp
-    void report();
-    std::string state_text(State now) const;
-    std::string values(const control::Point& point) const;
-    std::string counted_reports(State now);
-    std::string pins() const;
-    std::string accessories() const;
-    std::string modes_text() const;
-    std::string parameters_text() const;
-    std::string probe_text() const;
-    double spindle_rpm() const;
 
     operate::Machine& machine_;
     SessionSettings settings_;
@@ -126,16 +113,11 @@ class GrblSession {
     GcodeLines gcode_;
     GrblState state_;
     OverrideState overrides_;
+    Reports reports_;
     std::optional<PendingLine> doing_;
     Boot boot_ = Boot::done;
     int homing_alarm_ = alarm_homing_reset;  ///< alarm number of an aborted homing
     bool resets_ = false;                    ///< the reported stop is the session's own
-    std::int64_t probes_reported_ = 0;       ///< see control::ProbeReport::count
-    bool status_wanted_ = false;
-    int until_offset_ = 0, until_overrides_ = 0;  ///< countdown of reports
-    control::Point reported_offset_ = {};
-    Overrides reported_overrides_;
-    std::string reported_accessories_;
 };
 
 }  // namespace motionrack::grbl

@@ -17,10 +17,10 @@ constexpr std::string_view banner = "\r\nGrbl 1.1h ['$' for help]\r\n";
 
 void GrblSession::act(Realtime what) {
     const operate::Status& status = machine_.status();
-    if (status_wanted_ && what != Realtime::status) report();
+    if (what != Realtime::status) reports_.answer_request();
     switch (what) {
         case Realtime::status:
-            status_wanted_ = true;
+            reports_.request_status();
             return;
         case Realtime::reset:
             return reset(true);
@@ -37,7 +37,7 @@ void GrblSession::act(Realtime what) {
             if (state() == State::hold && status.spindle != control::gcode::Spindle::off &&
                 take_control(settings_, answers_)) {
                 overrides_.toggle_spindle_stop();
-                until_overrides_ = 0;
+                reports_.repeat_overrides();
             }
             return;
         case Realtime::flood:
@@ -59,7 +59,7 @@ bool GrblSession::may_switch_coolant() {
 
 void GrblSession::switch_coolant(bool mist, bool flood) {
     machine_.set_coolant(mist, flood);
-    until_overrides_ = 0;
+    reports_.repeat_overrides();
 }
 
 // ---- hold, door, reset
@@ -102,7 +102,7 @@ void GrblSession::resume() {
     if ((now != State::hold && now != State::door) || is_moving(machine_) || !take_control(settings_, answers_)) return;
     state_.end_hold();
     overrides_.end_spindle_stop();
-    until_overrides_ = 0;
+    reports_.repeat_overrides();
     if (machine_.state() == MachineState::hold) (void)machine_.resume();
 }
 
@@ -131,7 +131,7 @@ void GrblSession::reset(bool is_asked_for) {
 }
 
 void GrblSession::begin_again(bool after_reset) {
-    until_offset_ = until_overrides_ = 0;
+    reports_.repeat_all();
     answers_.put(banner);
     if (boot_ != Boot::reset) boot_ = after_reset ? Boot::reset : Boot::greeting;
 }
@@ -142,8 +142,7 @@ void GrblSession::watch_machine() {
     state_.watch_machine();
     gcode_.drop_executed_n_words();
     const control::ProbeReport& probe = machine_.stream().last_probe();
-    const bool probed = std::exchange(probes_reported_, probe.count) != probe.count;
-    if (probed && probe.begun) answers_.put(probe_text());
+    const bool probed = reports_.report_probe();
     if (state_.enters_error_stop() && !(state_.is_stopped() && !has_alarm(machine_)) &&
         !(doing_ && doing_->what == PendingLine::What::homing)) {
         state_.end_hold();

@@ -1,13 +1,12 @@
-// Status report, and the answers to $G and $#.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <motionrack/grbl/grbl_session.hpp>
 #include <motionrack/grbl/machine_view.hpp>
+#include <motionrack/grbl/reports.hpp>
+#include <utility>
 
 namespace motionrack::grbl {
-
-using operate::MachineState;
 
 namespace {
 
@@ -26,20 +25,20 @@ constexpr double mm_per_inch = 25.4;
 
 }  // namespace
 
-std::string GrblSession::state_text(State now) const {
+std::string Reports::state_text(State now) const {
     switch (now) {
         case State::idle:
             return "Idle";
         case State::run:
             return "Run";
         case State::hold:
-            return is_moving(machine_) ? "Hold:1" : "Hold:0";
+            return is_moving(from_.machine) ? "Hold:1" : "Hold:0";
         case State::jog:
             return "Jog";
         case State::alarm:
             return "Alarm";
         case State::door:
-            return is_moving(machine_) ? "Door:2" : "Door:0";
+            return is_moving(from_.machine) ? "Door:2" : "Door:0";
         case State::check:
             return "Check";
         case State::home:
@@ -51,10 +50,10 @@ std::string GrblSession::state_text(State now) const {
 }
 
 /// Returns "1.000,2.000,3.000"; degrees stay degrees in inches.
-std::string GrblSession::values(const control::Point& point) const {
+std::string Reports::values(const control::Point& point) const {
     std::string out;
-    for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis) {
-        const bool inches = own_.inches != 0 && axis < 3;
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(from_.settings.axes); ++axis) {
+        const bool inches = from_.own.inches != 0 && axis < 3;
         double value = inches ? point[axis] / mm_per_inch : point[axis];
         if (std::fabs(value) < (inches ? 0.00005 : 0.0005)) value = 0;  // no "-0.000"
         out += fmt::format("{}{:.{}f}", axis == 0 ? "" : ",", value, inches ? 4 : 3);
@@ -62,35 +61,40 @@ std::string GrblSession::values(const control::Point& point) const {
     return out;
 }
 
-void GrblSession::report() {
-    status_wanted_ = false;
-    const State now = state();
-    const operate::Status& status = machine_.status();
-    const unsigned shown = static_cast<unsigned>(own_.report);
-    const control::Point& offset = gcode_.interpreter().frame().offset;
+void Reports::answer_request() {
+    if (!std::exchange(status_wanted_, false)) return;
+    const State now = from_.state.now();
+    const operate::Status& status = from_.machine.status();
+    const unsigned shown = static_cast<unsigned>(from_.own.report);
+    const control::Point& offset = from_.gcode.interpreter().frame().offset;
     control::Point position = {};
     for (const operate::AxisStatus& axis : status.axes)
-        position[static_cast<std::size_t>(machine_.rack().config().axis(axis.letter)->index())] = axis.commanded;
+        position[static_cast<std::size_t>(from_.machine.rack().config().axis(axis.letter)->index())] = axis.commanded;
     const bool machine_places = (shown & 1) != 0;
     if (!machine_places)
         for (std::size_t axis = 0; axis < position.size(); ++axis) position[axis] -= offset[axis];
     answers_.put(fmt::format("<{}|{}Pos:{}", state_text(now), machine_places ? 'M' : 'W', values(position)));
-    if ((shown & 2) != 0)
-        answers_.put(fmt::format("|Bf:{},{}", planner_blocks - std::min(planner_blocks, machine_.stream().moves()),
-                                 reader_.free_bytes()));
-    if (const auto n_word = gcode_.executed_n_word(); now == State::run && n_word)
+    if ((shown & 2) != 0) answers_.put(fmt::format("|Bf:{},{}", from_.gcode.free_blocks(), from_.reader.free_bytes()));
+    if (const auto n_word = from_.gcode.executed_n_word(); now == State::run && n_word)
         answers_.put(fmt::format("|Ln:{}", *n_word));
-    const double feed = own_.inches != 0 ? feed_now(machine_) / mm_per_inch : feed_now(machine_);
-    answers_.put(fmt::format("|FS:{:.{}f},{:.0f}", feed, own_.inches != 0 ? 1 : 0, spindle_rpm()));
+    const double feed = from_.own.inches != 0 ? feed_now(from_.machine) / mm_per_inch : feed_now(from_.machine);
+    answers_.put(fmt::format("|FS:{:.{}f},{:.0f}", feed, from_.own.inches != 0 ? 1 : 0, spindle_rpm()));
     answers_.put(pins());
     answers_.put(counted_reports(now));
     answers_.put(">\r\n");
 }
 
+bool Reports::report_probe() {
+    const control::ProbeReport& probe = from_.machine.stream().last_probe();
+    const bool probed = std::exchange(probes_reported_, probe.count) != probe.count;
+    if (probed && probe.begun) answers_.put(probe_text());
+    return probed;
+}
+
 /// Work offset and overrides: after a change, and periodically; overrides never together with the offset.
-std::string GrblSession::counted_reports(State now) {
-    const control::Point& offset = gcode_.interpreter().frame().offset;
-    const Overrides overrides_now = overrides_.now();
+std::string Reports::counted_reports(State now) {
+    const control::Point& offset = from_.gcode.interpreter().frame().offset;
+    const Overrides overrides_now = from_.overrides.now();
     if (offset != std::exchange(reported_offset_, offset)) until_offset_ = 0;
     if (overrides_now != std::exchange(reported_overrides_, overrides_now)) until_overrides_ = 0;
     std::string accessories_now = accessories();
@@ -114,38 +118,40 @@ std::string GrblSession::counted_reports(State now) {
 }
 
 /// P: probe contact; limit switches by axis; R: the emergency stop, which a Grbl has at its reset pin.
-std::string GrblSession::pins() const {
+std::string Reports::pins() const {
     std::string out;
-    if (const Result<double> probe = machine_.wires().get("probe"); probe && *probe != 0) out += 'P';
-    for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis)
-        if (limit_active(machine_, control::axis_letters[axis])) out += control::axis_letters[axis];
-    if (contact_open(machine_, "estop")) out += 'R';
+    if (const Result<double> probe = from_.machine.wires().get("probe"); probe && *probe != 0) out += 'P';
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(from_.settings.axes); ++axis)
+        if (limit_active(from_.machine, control::axis_letters[axis])) out += control::axis_letters[axis];
+    if (contact_open(from_.machine, "estop")) out += 'R';
     return out.empty() ? out : "|Pn:" + out;
 }
 
-std::string GrblSession::accessories() const {
+std::string Reports::accessories() const {
     using control::gcode::Spindle;
-    const operate::Status& status = machine_.status();
+    const operate::Status& status = from_.machine.status();
     std::string out;
-    if (status.spindle != Spindle::off && !overrides_.is_spindle_stopped())
+    if (status.spindle != Spindle::off && !from_.overrides.is_spindle_stopped())
         out += status.spindle == Spindle::clockwise ? 'S' : 'C';
     if (status.flood) out += 'F';
     if (status.mist) out += 'M';
     return out;
 }
 
-double GrblSession::spindle_rpm() const {
-    const operate::Status& status = machine_.status();
-    if (status.spindle == control::gcode::Spindle::off || overrides_.is_spindle_stopped() || status.spindle_rpm == 0)
+double Reports::spindle_rpm() const {
+    const operate::Status& status = from_.machine.status();
+    if (status.spindle == control::gcode::Spindle::off || from_.overrides.is_spindle_stopped() ||
+        status.spindle_rpm == 0)
         return 0;
-    return std::max(own_.min_rpm, std::min(own_.max_rpm, status.spindle_rpm * overrides_.spindle_percent() / 100));
+    return std::max(from_.own.min_rpm,
+                    std::min(from_.own.max_rpm, status.spindle_rpm * from_.overrides.spindle_percent() / 100));
 }
 
-std::string GrblSession::modes_text() const {
+std::string Reports::parser_state() const {
     using control::gcode::Spindle;
-    const control::gcode::ModalState& modes = gcode_.interpreter().modes();
+    const control::gcode::ModalState& modes = from_.gcode.interpreter().modes();
     std::string out =
-        fmt::format("[GC:G{} G{} G{} G{} G{} G{}", gcode_.motion_mode(),
+        fmt::format("[GC:G{} G{} G{} G{} G{} G{}", from_.gcode.motion_mode(),
                     modes.system < 6 ? fmt::format("{}", 54 + modes.system) : fmt::format("59.{}", modes.system - 5),
                     17 + modes.plane, modes.inch ? 20 : 21, modes.incremental ? 91 : 90, modes.inverse_time ? 93 : 94);
     out += modes.spindle == Spindle::off ? " M5" : modes.spindle == Spindle::clockwise ? " M3" : " M4";
@@ -153,26 +159,26 @@ std::string GrblSession::modes_text() const {
     if (modes.flood) out += " M8";
     if (!modes.mist && !modes.flood) out += " M9";
     const double feed = modes.inverse_time ? 0 : modes.feed * 60;
-    const bool inches = own_.inches != 0;
+    const bool inches = from_.own.inches != 0;
     out += fmt::format(" T{} F{:.{}f} S{:.0f}]\r\n", std::max(0, modes.tool_selected),
                        inches ? feed / mm_per_inch : feed, inches ? 1 : 0, modes.speed_rpm);
     return out;
 }
 
-std::string GrblSession::parameters_text() const {
-    const control::gcode::WorkFrame& frame = gcode_.interpreter().frame();
+std::string Reports::parameters() const {
+    const control::gcode::WorkFrame& frame = from_.gcode.interpreter().frame();
     std::string out;
     for (std::size_t system = 0; system < control::gcode::grbl_work_system_count; ++system)
         out += fmt::format("[G{}:{}]\r\n", 54 + system, values(frame.work[system]));
     out += fmt::format("[G28:{}]\r\n[G30:{}]\r\n[G92:{}]\r\n", values(frame.g28), values(frame.g30), values(frame.g92));
-    const bool inches = own_.inches != 0;
+    const bool inches = from_.own.inches != 0;
     out += fmt::format("[TLO:{:.{}f}]\r\n", inches ? frame.tool[2] / mm_per_inch : frame.tool[2], inches ? 4 : 3);
     return out + probe_text();
 }
 
 /// Machine coordinates of the last contact; the final 0 means no contact.
-std::string GrblSession::probe_text() const {
-    const control::gcode::WorkFrame& frame = gcode_.interpreter().frame();
+std::string Reports::probe_text() const {
+    const control::gcode::WorkFrame& frame = from_.gcode.interpreter().frame();
     return fmt::format("[PRB:{}:{}]\r\n", values(frame.probe), frame.probe_hit ? 1 : 0);
 }
 
