@@ -145,7 +145,7 @@ int GrblSession::restore(const std::string& text) {
     if (settings_.on_setting) settings_.on_setting(fmt::format("{}: settings of the Grbl port are restored", text));
     answers_.push("Restoring defaults");
     answers_.answer(error_none);
-    reset();
+    reset(ResetCause::implicit);
     return answer_later;
 }
 
@@ -153,7 +153,7 @@ int GrblSession::check_mode() {
     if (gcode_.is_checking()) {
         answers_.push("Disabled");
         answers_.answer(error_none);
-        reset();
+        reset(ResetCause::implicit);
         return answer_later;
     }
     if (state() != State::idle) return error_not_idle;
@@ -215,7 +215,7 @@ bool GrblSession::finish_homing() {
     }
     alarm(number_of_homing(), false);
     answers_.push(ended.error().message);
-    reset();
+    reset(ResetCause::implicit);
     return false;
 }
 

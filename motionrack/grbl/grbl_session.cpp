@@ -20,6 +20,8 @@ int decimal_of(const Problem& problem) {
     return problem.status == GrblStatus::none ? int{error_locked} : static_cast<int>(problem.status);
 }
 
+constexpr std::string_view banner = "\r\nGrbl 1.1h ['$' for help]\r\n";
+
 }  // namespace
 
 GrblSession::GrblSession(operate::Machine& machine, SessionSettings settings)
@@ -28,7 +30,8 @@ GrblSession::GrblSession(operate::Machine& machine, SessionSettings settings)
       gcode_(machine),
       state_(machine, gcode_),
       overrides_(machine),
-      reports_({machine, settings_, own_, reader_, gcode_, state_, overrides_}, answers_) {
+      reports_({machine, settings_, own_, reader_, gcode_, state_, overrides_}, answers_),
+      realtime_({machine, settings_, state_, overrides_, reports_, answers_}) {
     settings_.axes = std::clamp(settings_.axes, 3, 4);
     watch_machine();
     (void)answers_.take();
@@ -60,6 +63,10 @@ void GrblSession::observe(std::string_view bytes) {
             act(*what);
     }
     reports_.answer_request();
+}
+
+void GrblSession::act(Realtime what) {
+    if (const std::optional<ResetCause> cause = realtime_.act(what)) reset(*cause);
 }
 
 void GrblSession::tick() {
@@ -170,6 +177,23 @@ int GrblSession::refused(const Problem& problem) {
     return decimal_of(problem);
 }
 
+// ---- changes of the machine
+
+void GrblSession::watch_machine() {
+    state_.watch_machine();
+    gcode_.drop_executed_n_words();
+    const control::ProbeReport& probe = machine_.stream().last_probe();
+    const bool probed = reports_.report_probe();
+    if (state_.enters_error_stop() && !(state_.is_stopped() && !has_alarm(machine_)) &&
+        !(doing_ && doing_->what == PendingLine::What::homing)) {
+        state_.end_hold();
+        alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial)
+                                       : alarm_of_stop(machine_),
+              true);
+        answers_.push(machine_.status().reason);
+    }
+}
+
 // ---- actions of other clients
 
 /// A reset at standstill has cleared the modes that waiting lines relied on.
@@ -197,6 +221,38 @@ void GrblSession::lock(std::string_view why) {
     if (!locked_before && !alarms_later) answers_.alarm(alarm_reset);
     answers_.push(why);
     if (doing_ && !alarms_later) finish_answer(error_locked);
+}
+
+// ---- reset
+
+/// Motion of another client continues, unless the settings say otherwise. A stop in force ends only with a reset that
+/// the sender requests, not with an implicit reset of the Grbl.
+void GrblSession::reset(ResetCause cause) {
+    const MachineState state = machine_.state();
+    const bool is_stationary = operate::idle(state), latched = machine_.rack().stop_latch().latched();
+    const Result<void> may = is_stationary || !settings_.may_stop ? Result<void>() : settings_.may_stop();
+    const Alarm homing_alarm = cause == ResetCause::door ? alarm_homing_door : alarm_homing_reset;
+    const Alarm number = state == MachineState::homing ? homing_alarm : is_moving(machine_) ? alarm_reset : alarm_none;
+    if (may && number != alarm_none) alarm(number, false);
+    if (doing_) finish_answer(error_none);
+    reader_.clear();
+    gcode_.reset();
+    state_.reset();
+    overrides_.reset_spindle();
+    if (may && (cause == ResetCause::requested || !latched)) {
+        machine_.set_overrides(1, 1);
+        resets_ = true;
+        machine_.reset(is_stationary && !latched ? operate::StopOrigin{} : settings_.source("^X"));
+        resets_ = false;
+    }
+    begin_again(true);
+    if (!may) answers_.push(may.error().message);
+}
+
+void GrblSession::begin_again(bool after_reset) {
+    reports_.repeat_all();
+    answers_.put(banner);
+    if (boot_ != Boot::reset) boot_ = after_reset ? Boot::reset : Boot::greeting;
 }
 
 // ---- deferred answers

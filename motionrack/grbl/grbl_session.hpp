@@ -18,6 +18,7 @@
 #include <motionrack/grbl/line_reader.hpp>
 #include <motionrack/grbl/numbers.hpp>
 #include <motionrack/grbl/override_state.hpp>
+#include <motionrack/grbl/realtime_commands.hpp>
 #include <motionrack/grbl/reports.hpp>
 #include <motionrack/grbl/session_settings.hpp>
 #include <motionrack/grbl/settings.hpp>
@@ -64,7 +65,8 @@ class GrblSession {
     /// Pending part of the banner.
     enum class Boot : std::uint8_t { done, greeting, reset };
 
-    // session.cpp: lines
+    // grbl_session.cpp
+    void act(Realtime what);
     void work();
     bool settled() const;
     bool must_wait(const Line& line);
@@ -72,7 +74,10 @@ class GrblSession {
     int gcode(const std::string& text);
     control::gcode::Outcome<void> give(const std::string& text, std::int32_t n_word);
     int refused(const control::gcode::Problem& problem);
+    void watch_machine();
     void lock(std::string_view why);
+    void reset(ResetCause cause);
+    void begin_again(bool after_reset);
     bool finish();
     void finish_answer(int error);
     void end_program();
@@ -92,16 +97,6 @@ class GrblSession {
     bool finish_homing();
     int number_of_homing() const;
     int jog(const std::string& text);
-    // realtime.cpp
-    void act(Realtime what);
-    bool may_switch_coolant();
-    void switch_coolant(bool mist, bool flood);
-    void hold();
-    void open_door();
-    void resume();
-    void reset(bool is_asked_for = false);
-    void begin_again(bool after_reset);
-    void watch_machine();
 
     operate::Machine& machine_;
     SessionSettings settings_;
@@ -114,10 +109,10 @@ class GrblSession {
     GrblState state_;
     OverrideState overrides_;
     Reports reports_;
+    RealtimeCommands realtime_;
     std::optional<PendingLine> doing_;
     Boot boot_ = Boot::done;
-    int homing_alarm_ = alarm_homing_reset;  ///< alarm number of an aborted homing
-    bool resets_ = false;                    ///< the reported stop is the session's own
+    bool resets_ = false;  ///< the reported stop is the session's own
 };
 
 }  // namespace motionrack::grbl

@@ -1,0 +1,98 @@
+#include <motionrack/grbl/machine_view.hpp>
+#include <motionrack/grbl/realtime_commands.hpp>
+
+namespace motionrack::grbl {
+
+std::optional<ResetCause> RealtimeCommands::act(Realtime what) {
+    const operate::Status& status = on_.machine.status();
+    if (what != Realtime::status) on_.reports.answer_request();
+    switch (what) {
+        case Realtime::status:
+            on_.reports.request_status();
+            break;
+        case Realtime::reset:
+            return ResetCause::requested;
+        case Realtime::feed_hold:
+            return hold();
+        case Realtime::door:
+            return open_door();
+        case Realtime::jog_cancel:
+            if (on_.state.now() == State::jog) on_.machine.cancel();
+            break;
+        case Realtime::cycle_start:
+            resume();
+            break;
+        case Realtime::spindle_stop:
+            stop_spindle();
+            break;
+        case Realtime::flood:
+            if (may_switch_coolant()) switch_coolant(status.mist, !status.flood);
+            break;
+        case Realtime::mist:
+            if (may_switch_coolant()) switch_coolant(!status.mist, status.flood);
+            break;
+        default:
+            if (is_override(what) && control()) on_.overrides.change(what);
+            break;
+    }
+    return std::nullopt;
+}
+
+void RealtimeCommands::stop_spindle() {
+    if (on_.state.now() != State::hold || on_.machine.status().spindle == control::gcode::Spindle::off || !control())
+        return;
+    on_.overrides.toggle_spindle_stop();
+    on_.reports.repeat_overrides();
+}
+
+bool RealtimeCommands::may_switch_coolant() {
+    const State now = on_.state.now();
+    return (now == State::idle || now == State::run || now == State::hold) && control();
+}
+
+void RealtimeCommands::switch_coolant(bool mist, bool flood) {
+    on_.machine.set_coolant(mist, flood);
+    on_.reports.repeat_overrides();
+}
+
+std::optional<ResetCause> RealtimeCommands::hold() {
+    switch (on_.state.now()) {
+        case State::idle:
+            on_.state.hold(true);
+            break;
+        case State::run:
+            on_.state.hold(on_.machine.hold().has_value());
+            break;
+        case State::jog:
+            on_.machine.cancel();
+            break;
+        case State::home:
+            return ResetCause::implicit;
+        default:
+            break;
+    }
+    return std::nullopt;
+}
+
+/// The machine has no door: it counts as closed again immediately, and the sender resumes.
+std::optional<ResetCause> RealtimeCommands::open_door() {
+    const State now = on_.state.now();
+    if (now == State::home) return ResetCause::door;
+    if (now == State::alarm || now == State::check || now == State::sleep || now == State::door) return std::nullopt;
+    on_.answers.push("Check Door");
+    if (now == State::jog) on_.machine.cancel();
+    if (now == State::run) (void)on_.machine.hold();
+    on_.state.open_door();
+    return std::nullopt;
+}
+
+void RealtimeCommands::resume() {
+    const State now = on_.state.now();
+    if ((now != State::hold && now != State::door) || is_moving(on_.machine) || !control()) return;
+    on_.state.end_hold();
+    on_.overrides.end_spindle_stop();
+    on_.reports.repeat_overrides();
+    if (on_.machine.state() == operate::MachineState::hold) (void)on_.machine.resume();
+}
+
+}  // namespace motionrack::grbl
