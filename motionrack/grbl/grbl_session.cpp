@@ -28,9 +28,10 @@ GrblSession::GrblSession(operate::Machine& machine, SessionSettings settings)
     : machine_(machine),
       settings_(std::move(settings)),
       gcode_(machine),
+      sender_settings_(machine, settings_, gcode_, answers_),
       state_(machine, gcode_),
       overrides_(machine),
-      reports_({machine, settings_, own_, reader_, gcode_, state_, overrides_}, answers_),
+      reports_({machine, settings_, sender_settings_.values(), reader_, gcode_, state_, overrides_}, answers_),
       realtime_({machine, settings_, state_, overrides_, reports_, answers_}) {
     settings_.axes = std::clamp(settings_.axes, 3, 4);
     watch_machine();
@@ -119,7 +120,7 @@ bool GrblSession::must_wait(const Line& line) {
     Block block;
     Problem problem;
     return control::gcode::scan_line(text, {}, block, problem) &&
-           must_stand_first(block, gcode_.interpreter(), own_.laser != 0);
+           must_stand_first(block, gcode_.interpreter(), sender_settings_.values().laser != 0);
 }
 
 void GrblSession::carry_out(const std::string& text) {
@@ -309,7 +310,7 @@ void GrblSession::finish_boot() {
 }
 
 void GrblSession::startup() {
-    for (const std::string& text : startup_lines_) {
+    for (const std::string& text : sender_settings_.startup_lines()) {
         if (text.empty()) continue;
         const auto read = give(text, 0);
         answers_.put(fmt::format(">{}:", text));

@@ -11,7 +11,6 @@
 // not access cards.
 #pragma once
 
-#include <array>
 #include <motionrack/grbl/answers.hpp>
 #include <motionrack/grbl/gcode_lines.hpp>
 #include <motionrack/grbl/grbl_state.hpp>
@@ -20,8 +19,8 @@
 #include <motionrack/grbl/override_state.hpp>
 #include <motionrack/grbl/realtime_commands.hpp>
 #include <motionrack/grbl/reports.hpp>
+#include <motionrack/grbl/sender_settings.hpp>
 #include <motionrack/grbl/session_settings.hpp>
-#include <motionrack/grbl/settings.hpp>
 #include <motionrack/operate/machine.hpp>
 #include <optional>
 #include <string>
@@ -52,7 +51,7 @@ class GrblSession {
     std::string take_output() { return answers_.take(); }
 
     State state() const { return state_.now(); }
-    const SessionSettingValues& own() const { return own_; }
+    const SessionSettingValues& own() const { return sender_settings_.values(); }
 
   private:
     /// An executed line whose answer is pending.
@@ -87,8 +86,6 @@ class GrblSession {
     // commands.cpp
     int command(const std::string& text);
     int command_at_rest(const std::string& text);
-    int store(std::string_view text);
-    int store_startup_line(std::string_view text);
     int restore(const std::string& text);
     int check_mode();
     int unlock();
@@ -100,12 +97,10 @@ class GrblSession {
 
     operate::Machine& machine_;
     SessionSettings settings_;
-    SessionSettingValues own_;
-    std::array<std::string, 2> startup_lines_;
-    std::string build_text_;
     Answers answers_;
     LineReader reader_;
     GcodeLines gcode_;
+    SenderSettings sender_settings_;
     GrblState state_;
     OverrideState overrides_;
     Reports reports_;
