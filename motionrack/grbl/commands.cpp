@@ -104,7 +104,7 @@ int GrblSession::unlock() {
         resets_ = true, machine_.reset(settings_.source("$X")), resets_ = false;
     state_.end_alarm();
     (void)state_.release();
-    doing_ = PendingLine{PendingLine::What::unlocking};
+    pending_.begin(PendingAction::unlocking);
     return answer_later;
 }
 
@@ -123,7 +123,7 @@ int GrblSession::home() {
         return error_locked;
     }
     (void)state_.release();
-    doing_ = PendingLine{PendingLine::What::homing};
+    pending_.begin(PendingAction::homing);
     return answer_later;
 }
 
@@ -132,17 +132,17 @@ bool GrblSession::finish_homing() {
     const Result<void>& ended = machine_.last_homing()->ended;
     if (ended) {
         state_.end_alarm();
-        if (state_.is_locked() && !std::exchange(doing_->declared, true)) {
+        if (state_.is_locked() && pending_.begins_validation()) {
             declare_positions();
             return false;
         }
         if (!state_.is_stopped()) startup();
-        finish_answer(state_.is_stopped() ? error_locked : error_none);
+        pending_.finish(state_.is_stopped() ? error_locked : error_none);
         return true;
     }
     if (ended.error().kind == ErrorKind::refused) {
         answers_.push(ended.error().message);
-        finish_answer(error_no_homing);
+        pending_.finish(error_no_homing);
         return true;
     }
     alarm(number_of_homing(), false);

@@ -78,7 +78,7 @@ void GrblSession::tick() {
 
 void GrblSession::greet() {
     reader_.clear();
-    if (doing_) doing_->silent = true;
+    pending_.silence();
     begin_again(false);
     work();
 }
@@ -88,7 +88,7 @@ void GrblSession::greet() {
 /// Processes lines until one has to wait.
 void GrblSession::work() {
     while (true) {
-        if (doing_ && !finish()) return;
+        if (pending_.exists() && !finish()) return;
         if (!settled()) return;
         if (boot_ != Boot::done) finish_boot();
         if (state_.needs_reset() || state_.is_asleep()) return;
@@ -153,8 +153,7 @@ int GrblSession::gcode(const std::string& text) {
     }
     const bool probes = machine_.stream().probe_pending();
     if (!probes && !block.has_m(m_stop) && !(block.has_g(g_nonmodal) && block.g[g_nonmodal] == 40)) return error_none;
-    doing_ = PendingLine{PendingLine::What::moving};
-    doing_->program_ends = ends;
+    pending_.begin(PendingAction::moving, ends);
     return answer_later;
 }
 
@@ -171,7 +170,7 @@ control::gcode::Outcome<void> GrblSession::give(const std::string& text, std::in
 int GrblSession::refused(const Problem& problem) {
     if (problem.status == GrblStatus::travel_exceeded) {
         if (!gcode_.is_checking() && machine_.state() == MachineState::moving) machine_.cancel();
-        doing_ = PendingLine{PendingLine::What::leaving_travel};
+        pending_.begin(PendingAction::leaving_travel);
         return answer_later;
     }
     if (problem.status == GrblStatus::none && !problem.message.empty()) answers_.push(problem.message);
@@ -186,7 +185,7 @@ void GrblSession::watch_machine() {
     const control::ProbeReport& probe = machine_.stream().last_probe();
     const bool probed = reports_.report_probe();
     if (state_.enters_error_stop() && !(state_.is_stopped() && !has_alarm(machine_)) &&
-        !(doing_ && doing_->what == PendingLine::What::homing)) {
+        !pending_.waits_for(PendingAction::homing)) {
         state_.end_hold();
         alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial)
                                        : alarm_of_stop(machine_),
@@ -200,7 +199,7 @@ void GrblSession::watch_machine() {
 /// A reset at standstill has cleared the modes that waiting lines relied on.
 void GrblSession::stopped(const operate::StopReport& report) {
     if (resets_) return;
-    const bool waits = state_.is_held() || reader_.has_line() || doing_;
+    const bool waits = state_.is_held() || reader_.has_line() || pending_.exists();
     if (report.releases && state_.release()) return answers_.push(report.text + " The sender may continue");
     if (report.releases && !waits) return;
     state_.lock_disabled_machine();
@@ -208,7 +207,7 @@ void GrblSession::stopped(const operate::StopReport& report) {
 }
 
 void GrblSession::lose_control(const std::string& to) {
-    if (operate::idle(machine_.state()) && !reader_.has_line() && !doing_) return;
+    if (operate::idle(machine_.state()) && !reader_.has_line() && !pending_.exists()) return;
     lock(fmt::format("{} has taken control", to.empty() ? "Another user" : to));
 }
 
@@ -218,10 +217,10 @@ void GrblSession::lock(std::string_view why) {
     const bool locked_before = state_.lock();
     gcode_.drop_n_words();
     const bool alarms_later =
-        doing_ && (doing_->what == PendingLine::What::homing || doing_->what == PendingLine::What::leaving_travel);
+        pending_.waits_for(PendingAction::homing) || pending_.waits_for(PendingAction::leaving_travel);
     if (!locked_before && !alarms_later) answers_.alarm(alarm_reset);
     answers_.push(why);
-    if (doing_ && !alarms_later) finish_answer(error_locked);
+    if (pending_.exists() && !alarms_later) pending_.finish(error_locked);
 }
 
 // ---- reset
@@ -235,7 +234,7 @@ void GrblSession::reset(ResetCause cause) {
     const Alarm homing_alarm = cause == ResetCause::door ? alarm_homing_door : alarm_homing_reset;
     const Alarm number = state == MachineState::homing ? homing_alarm : is_moving(machine_) ? alarm_reset : alarm_none;
     if (may && number != alarm_none) alarm(number, false);
-    if (doing_) finish_answer(error_none);
+    if (pending_.exists()) pending_.finish(error_none);
     reader_.clear();
     gcode_.reset();
     state_.reset();
@@ -261,39 +260,33 @@ void GrblSession::begin_again(bool after_reset) {
 /// Returns true if the previous line is finished.
 bool GrblSession::finish() {
     const MachineState state = machine_.state();
-    if (state_.needs_reset() || (state == MachineState::error_stop && doing_->what != PendingLine::What::homing))
+    if (state_.needs_reset() || (state == MachineState::error_stop && pending_.action() != PendingAction::homing))
         return false;
     const bool is_stationary = settled() && state != MachineState::moving && state != MachineState::hold;
     if (!is_stationary) return false;
-    switch (doing_->what) {
-        case PendingLine::What::moving:
-            if (doing_->program_ends) end_program();
+    switch (pending_.action()) {
+        case PendingAction::moving:
+            if (pending_.program_ends()) {
+                overrides_.end_program();
+                pending_.push("Pgm End");
+            }
             break;
-        case PendingLine::What::leaving_travel:
+        case PendingAction::leaving_travel:
             alarm(alarm_soft_limit, true);
             return false;
-        case PendingLine::What::homing:
+        case PendingAction::homing:
             return finish_homing();
-        case PendingLine::What::unlocking:
-            if (!std::exchange(doing_->declared, true)) {
+        case PendingAction::unlocking:
+            if (pending_.begins_validation()) {
                 (void)machine_.enable(true);
                 declare_positions();
                 return false;
             }
-            if (!doing_->silent) answers_.push("Caution: Unlocked");
+            pending_.push("Caution: Unlocked");
             break;
     }
-    finish_answer(error_none);
+    pending_.finish(error_none);
     return true;
-}
-
-void GrblSession::finish_answer(int error) {
-    if (!std::exchange(doing_, std::nullopt)->silent) answers_.answer(error);
-}
-
-void GrblSession::end_program() {
-    overrides_.end_program();
-    if (!doing_->silent) answers_.push("Pgm End");
 }
 
 void GrblSession::finish_boot() {

@@ -17,6 +17,7 @@
 #include <motionrack/grbl/line_reader.hpp>
 #include <motionrack/grbl/numbers.hpp>
 #include <motionrack/grbl/override_state.hpp>
+#include <motionrack/grbl/pending_answer.hpp>
 #include <motionrack/grbl/realtime_commands.hpp>
 #include <motionrack/grbl/reports.hpp>
 #include <motionrack/grbl/sender_settings.hpp>
@@ -54,13 +55,6 @@ class GrblSession {
     const SessionSettingValues& own() const { return sender_settings_.values(); }
 
   private:
-    /// An executed line whose answer is pending.
-    struct PendingLine {
-        enum class What : std::uint8_t { moving, leaving_travel, homing, unlocking } what = What::moving;
-        bool silent = false;  ///< its connection has closed
-        bool program_ends = false;
-        bool declared = false;  ///< positions to set are set (unlocking, homing)
-    };
     /// Pending part of the banner.
     enum class Boot : std::uint8_t { done, greeting, reset };
 
@@ -78,8 +72,6 @@ class GrblSession {
     void reset(ResetCause cause);
     void begin_again(bool after_reset);
     bool finish();
-    void finish_answer(int error);
-    void end_program();
     void finish_boot();
     void startup();
     void alarm(int number, bool needs_reset);
@@ -105,7 +97,7 @@ class GrblSession {
     OverrideState overrides_;
     Reports reports_;
     RealtimeCommands realtime_;
-    std::optional<PendingLine> doing_;
+    PendingAnswer pending_{answers_};
     Boot boot_ = Boot::done;
     bool resets_ = false;  ///< the reported stop is the session's own
 };

@@ -1,0 +1,47 @@
+// The answer to a line that is executed, while it is pending.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/grbl/answers.hpp>
+#include <optional>
+#include <string_view>
+
+namespace motionrack::grbl {
+
+/// What the machine does before the line is answered.
+enum class PendingAction : std::uint8_t { moving, leaving_travel, homing, unlocking };
+
+class PendingAnswer {
+  public:
+    /// The answers must outlive this.
+    explicit PendingAnswer(Answers& answers) : answers_(answers) {}
+
+    bool exists() const { return line_.has_value(); }
+    bool waits_for(PendingAction action) const { return line_ && line_->action == action; }
+    void begin(PendingAction action, bool program_ends = false);
+    /// Suppresses the answer, because the connection of its line has closed.
+    void silence();
+
+    // These require a pending answer.
+    PendingAction action() const { return line_->action; }
+    bool program_ends() const { return line_->program_ends; }
+    /// Returns true once for each line.
+    bool begins_validation();
+    /// Sends a message, unless the answer is suppressed.
+    void push(std::string_view text);
+    /// Sends the answer, unless it is suppressed.
+    void finish(int error);
+
+  private:
+    struct PendingLine {
+        PendingAction action;
+        bool program_ends;
+        bool silent = false;     ///< its connection has closed
+        bool validated = false;  ///< positions to set are set (unlocking, homing)
+    };
+
+    Answers& answers_;
+    std::optional<PendingLine> line_;
+};
+
+}  // namespace motionrack::grbl
