@@ -1,6 +1,7 @@
 // $ commands, and the states in which they are accepted.
 #include <motionrack/grbl/grbl_session.hpp>
 #include <motionrack/grbl/line_rules.hpp>
+#include <motionrack/grbl/machine_view.hpp>
 
 namespace motionrack::grbl {
 
@@ -101,17 +102,11 @@ int GrblSession::unlock() {
     if (state() != State::alarm) return error_none;
     if (!take_control(settings_, answers_)) return error_locked;
     if (machine_.state() == MachineState::error_stop)  // after a STOP; others need the sender's reset
-        resets_ = true, machine_.reset(settings_.source("$X")), resets_ = false;
+        state_.reset_machine(settings_.source("$X"));
     state_.end_alarm();
     (void)state_.release();
     pending_.begin(PendingAction::unlocking);
     return answer_later;
-}
-
-void GrblSession::declare_positions() {
-    for (const operate::AxisStatus& axis : machine_.status().axes)
-        if (!machine_.position_valid(*machine_.rack().config().axis(axis.letter)))
-            (void)machine_.set_position(axis.letter, axis.commanded);
 }
 
 int GrblSession::home() {
@@ -133,7 +128,7 @@ bool GrblSession::finish_homing() {
     if (ended) {
         state_.end_alarm();
         if (state_.is_locked() && pending_.begins_validation()) {
-            declare_positions();
+            state_.validate_positions();
             return false;
         }
         if (!state_.is_stopped()) startup();
@@ -145,18 +140,10 @@ bool GrblSession::finish_homing() {
         pending_.finish(error_no_homing);
         return true;
     }
-    alarm(number_of_homing(), false);
+    alarm(alarm_of_homing(machine_), false);
     answers_.push(ended.error().message);
     reset(ResetCause::implicit);
     return false;
-}
-
-int GrblSession::number_of_homing() const {
-    if (machine_.last_homing()->ended.error().kind == ErrorKind::stopped) return alarm_homing_reset;
-    for (const rack::HomedAxis& axis : machine_.last_homing()->axes)
-        if (axis.begun && !axis.outcome.homed)
-            return axis.outcome.edges.empty() ? alarm_homing_no_switch : alarm_homing_pull_off;
-    return alarm_homing_no_switch;
 }
 
 // ---- jog

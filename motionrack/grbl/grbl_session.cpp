@@ -89,7 +89,7 @@ void GrblSession::greet() {
 void GrblSession::work() {
     while (true) {
         if (pending_.exists() && !finish()) return;
-        if (!settled()) return;
+        if (!is_settled(machine_)) return;
         if (boot_ != Boot::done) finish_boot();
         if (state_.needs_reset() || state_.is_asleep()) return;
         const Line* next = reader_.next();
@@ -101,12 +101,6 @@ void GrblSession::work() {
         else
             carry_out(line.text);
     }
-}
-
-/// Returns true if only lines drive the machine.
-bool GrblSession::settled() const {
-    const MachineState state = machine_.state();
-    return !machine_.has_orders() && state != MachineState::stopping && state != MachineState::homing;
 }
 
 bool GrblSession::must_wait(const Line& line) {
@@ -198,7 +192,7 @@ void GrblSession::watch_machine() {
 
 /// A reset at standstill has cleared the modes that waiting lines relied on.
 void GrblSession::stopped(const operate::StopReport& report) {
-    if (resets_) return;
+    if (state_.is_resetting_machine()) return;
     const bool waits = state_.is_held() || reader_.has_line() || pending_.exists();
     if (report.releases && state_.release()) return answers_.push(report.text + " The sender may continue");
     if (report.releases && !waits) return;
@@ -241,9 +235,7 @@ void GrblSession::reset(ResetCause cause) {
     overrides_.reset_spindle();
     if (may && (cause == ResetCause::requested || !latched)) {
         machine_.set_overrides(1, 1);
-        resets_ = true;
-        machine_.reset(is_stationary && !latched ? operate::StopOrigin{} : settings_.source("^X"));
-        resets_ = false;
+        state_.reset_machine(is_stationary && !latched ? operate::StopOrigin{} : settings_.source("^X"));
     }
     begin_again(true);
     if (!may) answers_.push(may.error().message);
@@ -262,7 +254,7 @@ bool GrblSession::finish() {
     const MachineState state = machine_.state();
     if (state_.needs_reset() || (state == MachineState::error_stop && pending_.action() != PendingAction::homing))
         return false;
-    const bool is_stationary = settled() && state != MachineState::moving && state != MachineState::hold;
+    const bool is_stationary = is_settled(machine_) && state != MachineState::moving && state != MachineState::hold;
     if (!is_stationary) return false;
     switch (pending_.action()) {
         case PendingAction::moving:
@@ -279,7 +271,7 @@ bool GrblSession::finish() {
         case PendingAction::unlocking:
             if (pending_.begins_validation()) {
                 (void)machine_.enable(true);
-                declare_positions();
+                state_.validate_positions();
                 return false;
             }
             pending_.push("Caution: Unlocked");

@@ -61,7 +61,6 @@ class GrblSession {
     // grbl_session.cpp
     void act(Realtime what);
     void work();
-    bool settled() const;
     bool must_wait(const Line& line);
     void carry_out(const std::string& text);
     int gcode(const std::string& text);
@@ -81,10 +80,8 @@ class GrblSession {
     int restore(const std::string& text);
     int check_mode();
     int unlock();
-    void declare_positions();
     int home();
     bool finish_homing();
-    int number_of_homing() const;
     int jog(const std::string& text);
 
     operate::Machine& machine_;
@@ -99,7 +96,6 @@ class GrblSession {
     RealtimeCommands realtime_;
     PendingAnswer pending_{answers_};
     Boot boot_ = Boot::done;
-    bool resets_ = false;  ///< the reported stop is the session's own
 };
 
 }  // namespace motionrack::grbl

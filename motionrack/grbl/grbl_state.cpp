@@ -51,6 +51,18 @@ void GrblState::enable_new_machine() {
     if (never_enabled_) (void)machine_.enable(true);
 }
 
+void GrblState::reset_machine(const operate::StopOrigin& by) {
+    resets_ = true;
+    machine_.reset(by);
+    resets_ = false;
+}
+
+void GrblState::validate_positions() {
+    for (const operate::AxisStatus& axis : machine_.status().axes)
+        if (!machine_.position_valid(*machine_.rack().config().axis(axis.letter)))
+            (void)machine_.set_position(axis.letter, axis.commanded);
+}
+
 void GrblState::open_door() {
     door_ = true;
     held_ = false;

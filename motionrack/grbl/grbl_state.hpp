@@ -33,6 +33,13 @@ class GrblState {
     /// A machine that was never enabled is in Alarm from now on, like one that was disabled later.
     void lock_disabled_machine() { never_enabled_ = false; }
 
+    /// Resets the machine. stopped() of the session may be called within it.
+    void reset_machine(const operate::StopOrigin& by);
+    /// Returns true within reset_machine(): the reported stop is the session's own.
+    bool is_resetting_machine() const { return resets_; }
+    /// Sets the positions shown as valid for axes that were not homed.
+    void validate_positions();
+
     /// Begins a hold, or if it was refused ends it.
     void hold(bool begun) { held_ = begun; }
     void open_door();
@@ -54,6 +61,7 @@ class GrblState {
     bool alarm_ = false;          ///< until unlocking or homing
     bool critical_ = false;       ///< until a reset
     bool stopped_ = false;        ///< stopped by another client, until unlocking or reset
+    bool resets_ = false;         ///< within reset_machine()
     bool never_enabled_ = false;  ///< the machine has never been enabled
     bool held_ = false, door_ = false, asleep_ = false;
     bool hold_seen_ = false;      ///< the machine has reached its hold

@@ -14,6 +14,11 @@ bool is_moving(const operate::Machine& machine) {
     return state == MachineState::moving || state == MachineState::stopping || state == MachineState::jogging;
 }
 
+bool is_settled(const operate::Machine& machine) {
+    const MachineState state = machine.state();
+    return !machine.has_orders() && state != MachineState::stopping && state != MachineState::homing;
+}
+
 /// Contacts open when they act; a missing contact is inactive.
 bool contact_open(operate::Machine& machine, const std::string& wire) {
     const Result<double> level = machine.wires().get(wire);
@@ -38,6 +43,14 @@ int alarm_of_stop(operate::Machine& machine) {
     for (const rack::RackAxis& axis : machine.rack().config().axes)
         if (limit_active(machine, axis.letter)) return alarm_hard_limit;
     return alarm_reset;
+}
+
+int alarm_of_homing(const operate::Machine& machine) {
+    if (machine.last_homing()->ended.error().kind == ErrorKind::stopped) return alarm_homing_reset;
+    for (const rack::HomedAxis& axis : machine.last_homing()->axes)
+        if (axis.begun && !axis.outcome.homed)
+            return axis.outcome.edges.empty() ? alarm_homing_no_switch : alarm_homing_pull_off;
+    return alarm_homing_no_switch;
 }
 
 double feed_now(const operate::Machine& machine) {

@@ -8,6 +8,8 @@ namespace motionrack::grbl {
 
 /// Returns true while the machine moves, including the deceleration into a hold.
 bool is_moving(const operate::Machine& machine);
+/// Returns true if only lines drive the machine.
+bool is_settled(const operate::Machine& machine);
 /// Returns true while a limit switch of this axis is active.
 bool limit_active(operate::Machine& machine, char letter);
 /// Returns true if a contact exists at this wire and is open.
@@ -18,6 +20,8 @@ bool has_alarm(const operate::Machine& machine);
 bool is_stop_ordered(operate::Machine& machine);
 /// Returns N of ALARM:N for a machine that stopped by itself.
 int alarm_of_stop(operate::Machine& machine);
+/// Returns N of ALARM:N for a homing that has failed. Requires one.
+int alarm_of_homing(const operate::Machine& machine);
 /// Feed along the path, mm/min; degrees/min if only rotary axes move.
 double feed_now(const operate::Machine& machine);
 
