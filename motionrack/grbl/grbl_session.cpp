@@ -32,7 +32,8 @@ GrblSession::GrblSession(operate::Machine& machine, SessionSettings settings)
       state_(machine, gcode_),
       overrides_(machine),
       reports_({machine, settings_, sender_settings_.values(), reader_, gcode_, state_, overrides_}, answers_),
-      realtime_({machine, settings_, state_, overrides_, reports_, answers_}) {
+      realtime_({machine, settings_, state_, overrides_, reports_, answers_}),
+      commands_({machine, settings_, sender_settings_, gcode_, state_, reports_, answers_, pending_}) {
     settings_.axes = std::clamp(settings_.axes, 3, 4);
     watch_machine();
     (void)answers_.take();
@@ -124,6 +125,14 @@ void GrblSession::carry_out(const std::string& text) {
     else if (!text.empty())
         error = gcode(text);
     if (error != answer_later) answers_.answer(error);
+}
+
+int GrblSession::command(const std::string& text) {
+    const int error = commands_.execute(text);
+    if (error == error_none && text.compare(0, 2, "$J") == 0) watch_machine();
+    if (error != reset_now) return error;
+    reset(ResetCause::implicit);
+    return answer_later;
 }
 
 int GrblSession::gcode(const std::string& text) {
@@ -279,6 +288,30 @@ bool GrblSession::finish() {
     }
     pending_.finish(error_none);
     return true;
+}
+
+/// Axes without a switch keep their displayed positions, as after power-up of a Grbl.
+bool GrblSession::finish_homing() {
+    const Result<void>& ended = machine_.last_homing()->ended;
+    if (ended) {
+        state_.end_alarm();
+        if (state_.is_locked() && pending_.begins_validation()) {
+            state_.validate_positions();
+            return false;
+        }
+        if (!state_.is_stopped()) startup();
+        pending_.finish(state_.is_stopped() ? error_locked : error_none);
+        return true;
+    }
+    if (ended.error().kind == ErrorKind::refused) {
+        answers_.push(ended.error().message);
+        pending_.finish(error_no_homing);
+        return true;
+    }
+    alarm(alarm_of_homing(machine_), false);
+    answers_.push(ended.error().message);
+    reset(ResetCause::implicit);
+    return false;
 }
 
 void GrblSession::finish_boot() {

@@ -22,6 +22,7 @@
 #include <motionrack/grbl/reports.hpp>
 #include <motionrack/grbl/sender_settings.hpp>
 #include <motionrack/grbl/session_settings.hpp>
+#include <motionrack/grbl/system_commands.hpp>
 #include <motionrack/operate/machine.hpp>
 #include <optional>
 #include <string>
@@ -58,11 +59,11 @@ class GrblSession {
     /// Pending part of the banner.
     enum class Boot : std::uint8_t { done, greeting, reset };
 
-    // grbl_session.cpp
     void act(Realtime what);
     void work();
     bool must_wait(const Line& line);
     void carry_out(const std::string& text);
+    int command(const std::string& text);
     int gcode(const std::string& text);
     control::gcode::Outcome<void> give(const std::string& text, std::int32_t n_word);
     int refused(const control::gcode::Problem& problem);
@@ -71,22 +72,15 @@ class GrblSession {
     void reset(ResetCause cause);
     void begin_again(bool after_reset);
     bool finish();
+    bool finish_homing();
     void finish_boot();
     void startup();
     void alarm(int number, bool needs_reset);
-    // commands.cpp
-    int command(const std::string& text);
-    int command_at_rest(const std::string& text);
-    int restore(const std::string& text);
-    int check_mode();
-    int unlock();
-    int home();
-    bool finish_homing();
-    int jog(const std::string& text);
 
     operate::Machine& machine_;
     SessionSettings settings_;
     Answers answers_;
+    PendingAnswer pending_{answers_};
     LineReader reader_;
     GcodeLines gcode_;
     SenderSettings sender_settings_;
@@ -94,7 +88,7 @@ class GrblSession {
     OverrideState overrides_;
     Reports reports_;
     RealtimeCommands realtime_;
-    PendingAnswer pending_{answers_};
+    SystemCommands commands_;
     Boot boot_ = Boot::done;
 };
 

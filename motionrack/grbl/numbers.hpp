@@ -4,6 +4,7 @@
 namespace motionrack::grbl {
 
 enum Error : int {
+    reset_now = -2,     ///< the line is answered, and the session must be reset
     answer_later = -1,  ///< the answer to the line is deferred
     error_none = 0,
     error_letter = 1,  ///< a G-code word does not begin with a letter
