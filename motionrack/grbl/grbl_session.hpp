@@ -1,9 +1,10 @@
 // One Grbl port: receives bytes from a sender, returns bytes, and moves an operate::Machine.
 //
-//   bytes ─┬─ real-time ones ──► immediately: hold, resume, stop, overrides, "<Idle|MPos:..>"
-//          └─ lines ─► LineReader ──► one at a time ─┬─ $ commands ──► answers
-//                                                    └─ G-code, $J= ─► Machine::line, jog_to
-//   each line: one "ok" or "error:N"
+//   bytes ─┬─ real-time ones ─► RealtimeCommands, immediately: hold, resume, stop, overrides
+//          └─ lines ─► LineReader ─► one at a time ─┬─ $ ─────► SystemCommands, SenderSettings
+//                                                   └─ G-code ► GcodeLines ─► Machine::line
+//   GrblState, OverrideState ─► Reports: "<Idle|MPos:..>"
+//   PendingAnswer ─► Answers: for each line one "ok" or "error:N"
 //
 //   no line is accepted during a hold, a stop, a homing or a limit alarm; then bytes wait, 128 of them
 //
@@ -35,6 +36,8 @@ class GrblSession {
     /// The first line that moves the machine enables it if it was never enabled, since Grbl has no such state. The
     /// machine must outlive this.
     GrblSession(operate::Machine& machine, SessionSettings settings);
+    GrblSession(const GrblSession&) = delete;
+    GrblSession& operator=(const GrblSession&) = delete;
 
     /// Handles a new connection: drops pending data of the previous one and sends the banner. The machine continues.
     void greet();
