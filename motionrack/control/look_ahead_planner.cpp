@@ -61,7 +61,7 @@ Result<void> LookAheadPlanner::push(const Move& move) {
 /// Returns the limits along a move, with a velocity that respects the minimum duration of the hardware.
 AlongPathLimits LookAheadPlanner::along_of(const Geometry& path, const Move& move) const {
     AlongPathLimits along = limits_.along(path, move);
-    if (min_seconds_ > 0) along.velocity = std::min(along.velocity, path.length / min_seconds_);
+    if (drive_ != nullptr) along.velocity = std::min(along.velocity, drive_->max_velocity(path));
     return along;
 }
 

@@ -1,6 +1,7 @@
 // Interface of the look-ahead planners: moves are pushed one by one, planned moves are pulled in order.
 #pragma once
 
+#include <limits>
 #include <motionrack/base/result.hpp>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/move.hpp>
@@ -29,6 +30,11 @@ class DriveConstraints {
     }
     /// Returns the shortest duration of a move, s; a shorter one may end before the hardware has the next move.
     virtual double min_seconds() const { return 0; }
+    /// Returns the highest velocity along a move for its shortest duration, mm/s (degrees/s); infinity without a limit.
+    virtual double max_velocity(const Geometry& path) const {
+        const double seconds = min_seconds();
+        return seconds > 0 ? path.length / seconds : std::numeric_limits<double>::infinity();
+    }
     /// Returns the delay of a new velocity after the junction of two moves, s; the old velocity applies until then.
     virtual double late_seconds() const { return 0; }
 };

@@ -65,4 +65,14 @@ double PathRule::min_seconds() const {
     return Segmenter::min_seconds(host_);
 }
 
+/// A move of a few pulses may have fewer of them: its ends are rounded, and an arc before it may end beside its target.
+double PathRule::max_velocity(const control::Geometry& path) const {
+    constexpr double lost = 1 + both_axes_extra, beside = 1;  // pulses
+    const double pulses = path.length * basic_pulses_along(map_, drawing_of(map_, path), path.tangent_in);
+    const double kept = std::max(1.0, pulses - lost - beside);
+    const double whole = path.length / min_seconds(),
+                 counted = path.length * kept / pulses / Segmenter::min_counted_seconds(host_);
+    return std::min(whole, counted);
+}
+
 }  // namespace motionrack::mcx314

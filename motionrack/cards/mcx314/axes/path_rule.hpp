@@ -16,6 +16,7 @@ class PathRule final : public control::DriveConstraints {
     double min_velocity_update_s() const override { return 0.008; }
     double velocity_ratio(const control::Geometry& before, const control::Geometry& after) const override;
     double min_seconds() const override;
+    double max_velocity(const control::Geometry& path) const override;
     double late_seconds() const override { return to_seconds(host_.latency); }
 
   private:

@@ -39,6 +39,10 @@ double Segmenter::min_seconds(const HostTimes& host) {
     return piece_reserve * (accesses_of_piece * to_seconds(host.access) + to_seconds(host.latency));
 }
 
+double Segmenter::min_counted_seconds(const HostTimes& host) {
+    return counted_reserve / piece_reserve * min_seconds(host);
+}
+
 Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& start, const HostTimes& host)
     : map_(map),
       range_(range),
@@ -46,6 +50,7 @@ Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& star
       host_seconds_(to_seconds(host.latency)),
       latency_seconds_(accesses_to_write_speed * to_seconds(host.access) + host_seconds_),
       min_seconds_(min_seconds(host)),
+      min_counted_seconds_(min_counted_seconds(host)),
       at_(start) {}
 
 void Segmenter::add(const control::PlannedMove& move) {
@@ -143,7 +148,7 @@ double Segmenter::fall_from(const PendingMove& work, double units, const MoveSpe
 bool Segmenter::leaves_time(const PendingMove& work, double from, double to, std::int32_t v) const {
     const Pulses4 begin = from > 0 ? pulses_at(work, from) : at_;
     const auto pulses = static_cast<double>(basic_pulses(delta_between(work, begin, pulses_at(work, to))));
-    return pulses >= counted_reserve / piece_reserve * min_seconds_ * v * pulses_per_v_;
+    return pulses >= min_counted_seconds_ * v * pulses_per_v_;
 }
 
 // ---- moves to segments

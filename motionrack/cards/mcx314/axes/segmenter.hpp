@@ -55,6 +55,8 @@ class Segmenter {
 
     /// Minimum duration of a segment, s: a shorter one may end before the host has written the next.
     static double min_seconds(const HostTimes& host);
+    /// The same for a segment whose pulses are counted.
+    static double min_counted_seconds(const HostTimes& host);
 
   private:
     static constexpr std::int64_t max_line_pulses = 8'000'000;  ///< pulses
@@ -122,7 +124,7 @@ class Segmenter {
     double pulses_per_v_;     ///< pulses/s of one V unit
     double host_seconds_;     ///< latency of the host
     double latency_seconds_;  ///< time until a speed is written
-    double min_seconds_;
+    double min_seconds_, min_counted_seconds_;
     Pulses4 at_;
     std::optional<PendingMove> waiting_;
     std::deque<Segment> ready_;
