@@ -132,8 +132,8 @@ class TrajectoryGenerator {
     bool slow_down();
     bool apply_overrides();
     bool plan_to_end(std::size_t piece, const PathMotion& along);
-    SegmentTuning use_for_stop(std::size_t piece, std::size_t& k, double planned) const;
-    std::optional<double> find_stop(const PlanCursor& from);
+    SegmentTuning use_for_stop(std::size_t piece, std::size_t& k, double planned, double above) const;
+    std::optional<double> find_stop(const PlanCursor& from, double above);
     KnownSection with_feeds(const PlanCursor& from, std::span<const ProfileSegment> stop) const;
     void take(const PlanCursor& from, double seconds, double to);
     void measure();

@@ -16,6 +16,9 @@ constexpr double part_of_velocity = 0.7;
 /// Velocity limit on curves during a stop, relative to the current plan: acceleration that a higher velocity does not
 /// need remains for deceleration.
 constexpr double above_plan = 1.003;
+/// The same where a motion with a high acceleration has to exceed the velocities of its plan: only the limits for which
+/// the plan was made apply.
+constexpr double above_any = 1e9;
 /// A change to lower feed rates may exceed the velocity of a stop by the factor `faster` and its duration by
 /// `max_ease`. After a failure the allowed duration grows by `ease_grows`.
 constexpr double faster = 1.01, max_ease = 16, ease_grows = 1.3;
@@ -92,28 +95,30 @@ bool TrajectoryGenerator::extend_plan() {
 
 bool TrajectoryGenerator::slow_down() {
     const PlanCursor from = spot_at(before_left_);
-    const std::optional<double> end = find_stop(from);
+    std::optional<double> end = find_stop(from, above_plan);
+    if (!end) end = find_stop(from, above_any);
     if (!end) return false;
     holding_ = true;
     take(from, before_left_, *end);
     return true;
 }
 
-/// Returns the tuning of a segment for a stop on it, driven as fast as planned or as `planned`. `k`: the first profile
-/// segment to inspect, then the first one that reaches it.
-SegmentTuning TrajectoryGenerator::use_for_stop(std::size_t piece, std::size_t& k, double planned) const {
+/// Returns the tuning of a segment for a stop on it, driven as fast as planned or as `planned`, times `above`. `k`: the
+/// first profile segment to inspect, then the first one that reaches it.
+SegmentTuning TrajectoryGenerator::use_for_stop(std::size_t piece, std::size_t& k, double planned, double above) const {
     const CubicSegment& on = now_.curve[piece];
     SegmentTuning use = now_.use[piece];
     if (is_straight(on)) return use;
     while (k + 1 < now_.feed.size() && now_.feed[k + 1].begin <= on.begin) ++k;
     for (std::size_t i = k; i < now_.feed.size() && now_.feed[i].begin < on.begin + on.length; ++i)
         planned = std::max({planned, now_.feed[i].at(0).velocity, now_.feed[i].last().velocity});
-    use.velocity = std::min(use.velocity, above_plan * planned);
+    use.velocity = std::min(use.velocity, above * planned);
     return use;
 }
 
-/// Finds the nearest possible stop; the plan to it is the planner's last one.
-std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
+/// Finds the nearest possible stop; the plan to it is the planner's last one. `above`: velocity limit on curves,
+/// relative to the current plan.
+std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from, double above) {
     const InitialPathState start = start_of(from.along);
     const double begin = from.along.u, max_distance = now_.planned_to - begin;
     double planned = -1;  // end of the planner's last plan; below 0: no plan
@@ -125,7 +130,7 @@ std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from) {
     const auto add_piece = [&](std::size_t i) {
         stop_curve_.push_back(now_.curve[i]);
         stop_curve_.back().feed = std::max(now_.curve[i].feed, std::min(eases_from, now_.programmed[i]));
-        use.push_back(use_for_stop(i, k, eases_from > 0 ? from.along.velocity : 0));
+        use.push_back(use_for_stop(i, k, eases_from > 0 ? from.along.velocity : 0, above));
     };
     const auto plan_to = [&](double distance) {
         std::size_t last = from.piece;
@@ -163,7 +168,7 @@ bool TrajectoryGenerator::apply_overrides() {
     const bool slower = std::min(feed_override_, rapid_override_) < 1;
     std::vector<ProfileSegment> stop;
     if (slower) {
-        if (!find_stop(from)) return false;
+        if (!find_stop(from, above_plan) && !find_stop(from, above_any)) return false;
         stop.assign(planner_.feed().begin(), planner_.feed().end());
     }
     KnownSection part = with_feeds(from, stop);

@@ -33,6 +33,17 @@ TEST(LosslessAtRandom, AStopAtTheBeginOfAChordKeepsThePosition) {
     drive_one(864005568);
 }
 
+// A short arc or line has fewer pulses than its length where both its ends are rounded, or where an arc before it ends
+// beside its target.
+TEST(LosslessAtRandom, NoSegmentIsLateWhereAMoveHasFewPulses) {
+    for (const std::uint64_t seed : {658757350, 658759820}) drive_one(seed, Arcs::some);
+}
+
+// After a resume on an arc, the acceleration takes the motion a little above the velocities of its plan.
+TEST(LosslessAtRandom, AStopSlowsWhereAMotionAcceleratesOnAnArc) {
+    drive_one(658757033, Arcs::some);
+}
+
 // A segment with one pulse of an axis gives it a high rate for a fraction of a millisecond, and the next has none of
 // it.
 TEST(LosslessAtRandom, AStopInAShallowChordKeepsThePosition) {
