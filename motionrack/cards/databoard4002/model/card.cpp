@@ -5,15 +5,13 @@
 namespace motionrack::databoard4002 {
 
 Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& settings)
-    : kernel_(kernel), settings_(settings), train_(state_.train, tick) {
+    : kernel_(kernel),
+      settings_(settings),
+      id_(kernel.add(*this, sim::Phase::cards, name)),
+      conditions_(kernel, id_),
+      pins_(kernel, id_, name, state_.broken),
+      train_(state_.train, tick) {
     MOTIONRACK_ASSERT(check(settings).has_value());
-    id_ = kernel.add(*this, sim::Phase::cards, name);
-    for (std::size_t i = 0; i < pin_count; ++i) {
-        const PinInfo& pin = card_map().pins[i];
-        wires_[i] = kernel.add_wire(name + "." + std::string(pin.name), static_cast<int>(i) == sign_pin);
-        if (pin.direction == PinDirection::input) kernel.listen(wires_[i], id_, static_cast<int>(i));
-    }
-    kernel.drive_lazily(wires_[fout_pin], id_, fout_pin);
     train_.set_owner(this);
     state_.counter.closed = settings.counting == Counting::quadrature
                                 ? sim::ClosedFormCounter(settings.folding, false, settings.first_pair)
@@ -48,10 +46,10 @@ void Card::begin() {
     if (state_.begun) return;
     const Instant now = kernel_.now();
     state_.begun = 1;
-    for (std::size_t i = 0; i < 2; ++i) {
-        kernel_.subscribe(wires_[i], id_, !connected());
-        OutputLine& line = state_.counter.lines[i];
-        line.raw = line.taken = kernel_.level(wires_[i]) != 0;
+    for (const Pin pin : {o1_pin, o2_pin}) {
+        pins_.subscribe(pin, !connected());
+        OutputLine& line = state_.counter.lines[static_cast<std::size_t>(pin)];
+        line.raw = line.taken = pins_.level(pin) != 0;
     }
     if (encoder_) rate_changed(0, encoder_->rate(now), now);
     reset();
@@ -62,7 +60,7 @@ void Card::on_scheduled(Instant now) {
     if (state_.watchdog_at <= now) watchdog();
     if (state_.reset_pulse_end <= now) {
         state_.reset_pulse_end = never;
-        kernel_.set_wire(wires_[rst_pin], 0);
+        pins_.set(rst_pin, 0);
     }
     look_at_lines(now);
     train_.act(now);
@@ -72,7 +70,7 @@ void Card::on_scheduled(Instant now) {
 }
 
 void Card::watchdog() {
-    report(CardCondition::watchdog_reset);
+    conditions_.report(CardCondition::watchdog_reset);
     reset();
 }
 
@@ -83,7 +81,7 @@ void Card::reset() {
     state_.hung = 0;
     state_.watchdog_at = never;
     set_counter(0, now);
-    state_.firmware.stops = inputs() & (stat::ESL | stat::ESR | stat::EMS);
+    state_.firmware.stops = pins_.inputs() & (stat::ESL | stat::ESR | stat::EMS);
     set_wants();
     put_out(now);
     update_interrupt();
@@ -91,16 +89,12 @@ void Card::reset() {
     reschedule();
 }
 
-void Card::report(CardCondition code, std::int64_t a, std::int64_t b) {
-    kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
-}
-
 // ---- ports
 
 void Card::access(Work kind, std::uint8_t port, std::uint8_t value) {
     Firmware& f = state_.firmware;
     if (!f.ready) {
-        report(CardCondition::access_lost, port, kind == Work::in_data ? -1 : value);
+        conditions_.report(CardCondition::access_lost, port, kind == Work::in_data ? -1 : value);
         return;
     }
     f.ready = 0;
@@ -136,7 +130,7 @@ void Card::out(std::uint8_t port, std::uint8_t value) {
             return access(Work::enables, port, value);
         case ports::C3:
             state_.reset_pulse_end = kernel_.now() + reset_pulse;
-            kernel_.set_wire(wires_[rst_pin], 1);
+            pins_.set(rst_pin, 1);
             return reset();
         default:
             return;
@@ -145,10 +139,10 @@ void Card::out(std::uint8_t port, std::uint8_t value) {
 
 std::uint8_t Card::status() const {
     const Firmware& f = state_.firmware;
-    unsigned out = inputs();
+    unsigned out = pins_.inputs();
     if (f.ready) out |= stat::READY;
     if (f.pending) out |= stat::EVENT;
-    if (kernel_.level(wires_[interrupt_pin]) != 0) out |= stat::INT;
+    if (pins_.level(interrupt_pin) != 0) out |= stat::INT;
     return static_cast<std::uint8_t>(out);
 }
 

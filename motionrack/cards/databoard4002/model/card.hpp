@@ -11,9 +11,9 @@
 // the interval of the table, or a wire changes. The cost of a move depends on its slope steps, not on its counts.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <motionrack/cards/databoard4002/model/conditions.hpp>
+#include <motionrack/cards/databoard4002/model/condition_reporter.hpp>
+#include <motionrack/cards/databoard4002/model/pins.hpp>
 #include <motionrack/cards/databoard4002/model/settings.hpp>
 #include <motionrack/cards/databoard4002/model/state.hpp>
 #include <motionrack/sim/byte_device.hpp>
@@ -32,6 +32,8 @@ class Card final : public sim::DeferringDevice,
   public:
     /// Adds the card and its wires "<name>.<pin>" to the kernel. `settings` must pass check().
     Card(sim::Kernel& kernel, const std::string& name, const Settings& settings = {});
+    Card(const Card&) = delete;
+    Card& operator=(const Card&) = delete;
 
     // ---- the bus: valid while the card is selected
     std::uint8_t in(std::uint8_t port) override;
@@ -64,7 +66,7 @@ class Card final : public sim::DeferringDevice,
     const SlopeTable& table() const { return state_.firmware.table; }
     const Settings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
-    sim::WireId interrupt_wire() const { return wires_[interrupt_pin]; }
+    sim::WireId interrupt_wire() const { return pins_.wire(interrupt_pin); }
 
     void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
@@ -78,25 +80,6 @@ class Card final : public sim::DeferringDevice,
     static std::span<const std::string_view> fault_names();
 
   private:
-    enum Pin : int {
-        o1_pin,
-        o2_pin,
-        zero_pin,
-        ref_pin,
-        ems_pin,
-        esr_pin,
-        esl_pin,
-        vout_pin,
-        sign_pin,
-        fout_pin,
-        relay_pin,
-        rst_pin,
-        interrupt_pin,
-        direct_pin,
-        chosen_pin,  // driven by the bus
-        pin_count
-    };
-
     // card.cpp: time and ports
     Instant pass_from(Instant t) const;
     void want_pass(Instant now);
@@ -106,7 +89,6 @@ class Card final : public sim::DeferringDevice,
     void access(Work kind, std::uint8_t port, std::uint8_t value);
     std::uint8_t status() const;
     void reset();
-    void report(CardCondition code, std::int64_t a = 0, std::int64_t b = 0);
 
     // firmware.cpp: a pass
     void pass(Instant now);
@@ -131,8 +113,6 @@ class Card final : public sim::DeferringDevice,
     void zero_counter(Instant now);
 
     // hardware.cpp: wires, events, outputs
-    bool input(Pin pin, std::uint8_t stat_bit) const;
-    std::uint8_t inputs() const;
     void raise(std::uint8_t bits);
     void check_events();
     void look_at_zero(Instant now);
@@ -162,9 +142,10 @@ class Card final : public sim::DeferringDevice,
 
     sim::Kernel& kernel_;
     Settings settings_;
-    sim::DeviceId id_{};
-    std::array<sim::WireId, pin_count> wires_{};
     State state_{};
+    sim::DeviceId id_;
+    ConditionReporter conditions_;
+    Pins pins_;
     sim::PulseTrain train_;
     sim::PositionFunction* encoder_ = nullptr;
     int encoder_slot_ = 0;

@@ -56,11 +56,11 @@ void Card::zero_counter(Instant now) {
 void Card::take_command(std::uint8_t code, Instant now) {
     Firmware& f = state_.firmware;
     if (f.collecting == Collecting::collecting && f.collected > 0)
-        report(CardCondition::arguments_dropped, f.collector, f.collected);
+        conditions_.report(CardCondition::arguments_dropped, f.collector, f.collected);
     f.collecting = Collecting::idle;
     f.answer_left = 0;
     auto heard_while_moving = [&] {
-        if (f.move.on) report(CardCondition::during_move, code);
+        if (f.move.on) conditions_.report(CardCondition::during_move, code);
     };
     switch (code) {
         case command("A"):
@@ -102,7 +102,7 @@ void Card::take_command(std::uint8_t code, Instant now) {
             f.event = static_cast<std::uint8_t>(f.event & ~event::WATCH_OUT);
             return;
         default:
-            report(CardCondition::unknown_command, code);
+            conditions_.report(CardCondition::unknown_command, code);
     }
 }
 
@@ -114,7 +114,7 @@ void Card::take_argument(std::uint8_t value) {
         f.collecting = Collecting::collecting;
         f.answer_left = 0;
     }
-    if (f.collecting != Collecting::collecting) return report(CardCondition::data_unexpected, value);
+    if (f.collecting != Collecting::collecting) return conditions_.report(CardCondition::data_unexpected, value);
     if (f.collector == command("S"))
         f.table.set_byte(f.collected, value);
     else
@@ -136,7 +136,7 @@ void Card::arguments_complete(std::uint8_t code) {
             f.relative = 1;
             return;
         case command("P"):
-            if (f.move.on) report(CardCondition::during_move, code);
+            if (f.move.on) conditions_.report(CardCondition::during_move, code);
             f.target = signed24(f.argument);
             f.relative = 0;
             return;

@@ -48,11 +48,12 @@ void Card::take_encoder(bool taken) {
         const bool level = (levels >> i & 1) != 0;
         c.lines[i] = {};
         c.lines[i].raw = c.lines[i].taken = level;
-        kernel_.subscribe(wires_[i], id_, taken);
+        const Pin pin = i == 0 ? o1_pin : o2_pin;
+        pins_.subscribe(pin, taken);
         if (taken)
-            kernel_.force(wires_[i], level);
+            pins_.force(pin, level);
         else
-            kernel_.release(wires_[i]);
+            pins_.release(pin);
     }
     if (!taken) {
         c.closed.set(value, *encoder_, now);
@@ -78,10 +79,11 @@ void Card::rate_changed(double, double rate, Instant now) {
         c.count = counter(now);
         c.frozen_from = count;
         c.frozen = 1;
-        report(CardCondition::rate_exceeded, static_cast<std::int64_t>((rate < 0 ? -rate : rate) + 0.5));
+        conditions_.report(CardCondition::rate_exceeded, static_cast<std::int64_t>((rate < 0 ? -rate : rate) + 0.5));
     } else {
         c.frozen = 0;
-        report(CardCondition::counts_lost, c.closed.from_motion(count) - c.closed.from_motion(c.frozen_from));
+        conditions_.report(CardCondition::counts_lost,
+                           c.closed.from_motion(count) - c.closed.from_motion(c.frozen_from));
         c.closed.set(c.count, *encoder_, now);
     }
     want_pass(now);
@@ -105,7 +107,7 @@ void Card::look_at_lines(Instant now) {
     for (int i = 0; i < 2; ++i) {
         OutputLine& l = state_.counter.lines[static_cast<std::size_t>(i)];
         if (l.changes == 0 || l.free_at > now) continue;
-        if (l.changes > 1) report(CardCondition::line_too_quick, i + 1);
+        if (l.changes > 1) conditions_.report(CardCondition::line_too_quick, i + 1);
         l.changes = 0;
         if (l.raw != l.taken) take_line(i, l.free_at);
     }

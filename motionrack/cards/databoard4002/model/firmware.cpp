@@ -30,12 +30,12 @@ void Card::pass(Instant now) {
 
 void Card::look_at_stops(Instant now) {
     Firmware& f = state_.firmware;
-    const auto active = static_cast<std::uint8_t>(inputs() & (stat::ESL | stat::ESR | stat::EMS));
+    const auto active = static_cast<std::uint8_t>(pins_.inputs() & (stat::ESL | stat::ESR | stat::EMS));
     const bool risen = (active & ~f.stops) != 0;
     f.stops = active;
     if (risen) raise(event::STOP);
     if (!(active & stat::EMS)) return;
-    if (f.move.on) report(CardCondition::move_aborted, signed24(counter(now)), f.move.target);
+    if (f.move.on) conditions_.report(CardCondition::move_aborted, signed24(counter(now)), f.move.target);
     f.move.on = 0;
     f.lock = 0;
 }
@@ -68,9 +68,9 @@ void Card::go(Instant now) {
     const std::int64_t here = signed24(counter(now));
     const std::int64_t target = f.relative ? here + f.number : f.target;
     if (target != signed24(target) || std::abs(target - here) > max_move_counts)
-        return report(CardCondition::move_refused, target, here);
-    if (inputs() & stat::EMS) return report(CardCondition::go_in_emergency, here);
-    if (f.move.on) report(CardCondition::during_move, 'G');
+        return conditions_.report(CardCondition::move_refused, target, here);
+    if (pins_.inputs() & stat::EMS) return conditions_.report(CardCondition::go_in_emergency, here);
+    if (f.move.on) conditions_.report(CardCondition::during_move, 'G');
     if (f.sloped) report_flaw();
     f.event = static_cast<std::uint8_t>(f.event & ~event::POSITION);
     f.lock = 0;
@@ -82,7 +82,8 @@ void Card::go(Instant now) {
 void Card::report_flaw() {
     int interval = 0;
     const SlopeFlaw flaw = state_.firmware.table.flaw(interval);
-    if (flaw != SlopeFlaw::none) report(CardCondition::table_flawed, static_cast<std::int64_t>(flaw), interval);
+    if (flaw != SlopeFlaw::none)
+        conditions_.report(CardCondition::table_flawed, static_cast<std::int64_t>(flaw), interval);
 }
 
 void Card::begin_move(std::int64_t target, Instant now) {
@@ -100,7 +101,7 @@ void Card::note_turn(Instant now) {
     const std::int64_t u = counter(now), turn = turn_of(u);
     if (turn == state_.firmware.turn) return;
     state_.firmware.turn = turn;
-    report(CardCondition::position_wrapped, u);
+    conditions_.report(CardCondition::position_wrapped, u);
 }
 
 /// Watches the counter for the next position at which a pass has an effect, and requests the next pass that is due

@@ -9,25 +9,9 @@ namespace motionrack::databoard4002 {
 
 // ---- inputs
 
-/// An opto-isolated input is active without current, so a broken wire reads as active.
-bool Card::input(Pin pin, std::uint8_t stat_bit) const {
-    return (state_.broken & stat_bit) != 0 || kernel_.level(wires_[pin]) != 0;
-}
-
-/// STAT bits of the inputs.
-std::uint8_t Card::inputs() const {
-    unsigned out = 0;
-    if (kernel_.level(wires_[zero_pin]) != 0) out |= stat::ZERO;
-    if (input(ref_pin, stat::REF)) out |= stat::REF;
-    if (input(ems_pin, stat::EMS)) out |= stat::EMS;
-    if (input(esr_pin, stat::ESR)) out |= stat::ESR;
-    if (input(esl_pin, stat::ESL)) out |= stat::ESL;
-    return static_cast<std::uint8_t>(out);
-}
-
 /// A zero pulse is computed only while it is awaited, so an idle encoder costs no time.
 void Card::set_wants() {
-    kernel_.subscribe(wires_[zero_pin], id_, (state_.firmware.armed & event::ZERO) != 0);
+    pins_.subscribe(zero_pin, (state_.firmware.armed & event::ZERO) != 0);
 }
 
 void Card::on_wire(int pin, int level, Instant now) {
@@ -60,28 +44,12 @@ bool Card::fault(std::string_view name, double value, Instant now) {
         reschedule();
         return true;
     }
-    constexpr struct {
-        std::string_view name;
-        std::uint8_t bit;
-        Pin pin;
-    } wires[] = {{"esl.broken", stat::ESL, esl_pin},
-                 {"esr.broken", stat::ESR, esr_pin},
-                 {"ems.broken", stat::EMS, ems_pin},
-                 {"ref.broken", stat::REF, ref_pin}};
-    for (const auto& wire : wires) {
-        if (wire.name != name) continue;
-        state_.broken = static_cast<std::uint8_t>(value != 0 ? state_.broken | wire.bit : state_.broken & ~wire.bit);
-        if (value != 0)
-            kernel_.force(wires_[wire.pin], 1);  // the pin shows the forced level to all other listeners
-        else
-            kernel_.release(wires_[wire.pin]);
-        look_at_zero(now);
-        put_out(now);
-        want_pass(now);
-        reschedule();
-        return true;
-    }
-    return false;
+    if (!pins_.break_wire(name, value != 0)) return false;
+    look_at_zero(now);
+    put_out(now);
+    want_pass(now);
+    reschedule();
+    return true;
 }
 
 // ---- events
@@ -101,8 +69,8 @@ void Card::check_events() {
 
 bool Card::zero_condition() const {
     const std::uint8_t armed = state_.firmware.armed;
-    if ((armed & event::ZERO) && kernel_.level(wires_[zero_pin]) == 0) return false;
-    return armed != 0 && (!(armed & event::REF) || input(ref_pin, stat::REF));
+    if ((armed & event::ZERO) && pins_.level(zero_pin) == 0) return false;
+    return armed != 0 && (!(armed & event::REF) || pins_.input(ref_pin, stat::REF));
 }
 
 void Card::look_at_zero(Instant now) {
@@ -125,14 +93,13 @@ void Card::look_at_zero(Instant now) {
 void Card::update_interrupt() {
     const Firmware& f = state_.firmware;
     const bool asked = ((f.interrupts & event::ON_READY) && f.ready) || ((f.interrupts & event::ON_EVENT) && f.pending);
-    if (asked && kernel_.level(wires_[interrupt_pin]) == 0) kernel_.break_run();
-    kernel_.set_wire(wires_[interrupt_pin], asked);
+    pins_.set_interrupt(asked);
 }
 
 // ---- outputs
 
 bool Card::gate_open() const {
-    return state_.firmware.move.direction > 0 ? !input(esr_pin, stat::ESR) : !input(esl_pin, stat::ESL);
+    return state_.firmware.move.direction > 0 ? !pins_.input(esr_pin, stat::ESR) : !pins_.input(esl_pin, stat::ESL);
 }
 
 void Card::put_out(Instant now) {
@@ -140,12 +107,12 @@ void Card::put_out(Instant now) {
     const Firmware& f = state_.firmware;
     const int rate = f.out_rate, direction = f.move.direction;
     const bool driven = rate > 0 && gate_open();
-    const bool relay = f.rate != 0 && !input(ems_pin, stat::EMS);
-    kernel_.set_wire(wires_[sign_pin], direction > 0);
-    kernel_.set_wire(wires_[relay_pin], relay);
+    const bool relay = f.rate != 0 && !pins_.input(ems_pin, stat::EMS);
+    pins_.set(sign_pin, direction > 0);
+    pins_.set(relay_pin, relay);
     const int microvolts = driven ? direction * microvolts_of(rate, settings_.trim) : 0;
-    kernel_.set_wire(wires_[direct_pin], microvolts);
-    kernel_.set_wire(wires_[vout_pin], relay ? microvolts : 0);
+    pins_.set(direct_pin, microvolts);
+    pins_.set(vout_pin, relay ? microvolts : 0);
     if (driven)
         train_.run(divisor_of(rate), direction, now);
     else
@@ -166,7 +133,7 @@ void Card::wanted_changed(int, bool wanted, Instant now) {
 /// Sets the wire fout while a listener follows it.
 void Card::show_fout(Instant now) {
     if (!state_.fout_wanted || state_.fout_at > now) return;
-    kernel_.set_wire(wires_[fout_pin], train_.level(now));
+    pins_.set(fout_pin, train_.level(now));
     state_.fout_at = train_.next_edge(now);
 }
 
