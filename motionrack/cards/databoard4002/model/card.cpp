@@ -9,6 +9,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
       settings_(settings),
       id_(kernel.add(*this, sim::Phase::cards, name)),
       conditions_(kernel, id_),
+      passes_(state_.pass_at, settings.firmware_pass_ticks),
       pins_(kernel, id_, name, state_.broken),
       train_(state_.train, tick) {
     MOTIONRACK_ASSERT(check(settings).has_value());
@@ -21,20 +22,11 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
 
 // ---- time
 
-Instant Card::pass_from(Instant t) const {
-    const std::int64_t period = settings_.firmware_pass_ticks * tick.count();
-    return Duration{(t.count() + period - 1) / period * period};
-}
-
-void Card::want_pass(Instant now) {
-    state_.pass_at = std::min(state_.pass_at, pass_from(now));
-}
-
 void Card::reschedule() {
     if (!state_.begun) return;
     const Instant now = kernel_.now();
     Instant next = std::min({state_.watchdog_at, state_.reset_pulse_end, train_.next(now)});
-    if (!state_.hung) next = std::min(next, state_.pass_at);
+    if (!state_.hung) next = std::min(next, passes_.next());
     if (state_.fout_wanted) next = std::min(next, state_.fout_at);
     for (const OutputLine& line : state_.counter.lines)
         if (line.changes > 0) next = std::min(next, line.free_at);
@@ -64,7 +56,7 @@ void Card::on_scheduled(Instant now) {
     }
     look_at_lines(now);
     train_.act(now);
-    if (state_.pass_at <= now && !state_.hung) pass(now);
+    if (passes_.next() <= now && !state_.hung) pass(now);
     show_fout(now);
     reschedule();
 }
@@ -85,7 +77,7 @@ void Card::reset() {
     set_wants();
     put_out(now);
     update_interrupt();
-    state_.pass_at = pass_from(now);
+    passes_.restart(now);
     reschedule();
 }
 
@@ -100,8 +92,8 @@ void Card::access(Work kind, std::uint8_t port, std::uint8_t value) {
     f.ready = 0;
     f.access = kind;
     f.access_value = value;
-    f.access_due = pass_from(kernel_.now() + settings_.byte_time);
-    state_.pass_at = std::min(state_.pass_at, f.access_due);
+    f.access_due = passes_.first_from(kernel_.now() + settings_.byte_time);
+    passes_.request_at(f.access_due);
     update_interrupt();
     reschedule();
 }

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <motionrack/cards/databoard4002/model/condition_reporter.hpp>
+#include <motionrack/cards/databoard4002/model/pass_schedule.hpp>
 #include <motionrack/cards/databoard4002/model/pins.hpp>
 #include <motionrack/cards/databoard4002/model/settings.hpp>
 #include <motionrack/cards/databoard4002/model/state.hpp>
@@ -81,8 +82,6 @@ class Card final : public sim::DeferringDevice,
 
   private:
     // card.cpp: time and ports
-    Instant pass_from(Instant t) const;
-    void want_pass(Instant now);
     void reschedule();
     void begin();
     void watchdog();
@@ -145,6 +144,7 @@ class Card final : public sim::DeferringDevice,
     State state_{};
     sim::DeviceId id_;
     ConditionReporter conditions_;
+    PassSchedule passes_;
     Pins pins_;
     sim::PulseTrain train_;
     sim::PositionFunction* encoder_ = nullptr;

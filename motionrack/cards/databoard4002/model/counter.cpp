@@ -29,7 +29,7 @@ void Card::watch_counter(std::int64_t below, std::int64_t above) {
 
 void Card::crossed(Instant now) {
     encoder_->watch(encoder_slot_, sim::unwatched_below, sim::unwatched_above);
-    want_pass(now);
+    passes_.request(now);
     reschedule();
 }
 
@@ -59,7 +59,7 @@ void Card::take_encoder(bool taken) {
         c.closed.set(value, *encoder_, now);
         rate_changed(0, encoder_->rate(now), now);
     }
-    want_pass(now);
+    passes_.request(now);
     reschedule();
 }
 
@@ -86,7 +86,7 @@ void Card::rate_changed(double, double rate, Instant now) {
                            c.closed.from_motion(count) - c.closed.from_motion(c.frozen_from));
         c.closed.set(c.count, *encoder_, now);
     }
-    want_pass(now);
+    passes_.request(now);
     reschedule();
 }
 
@@ -128,7 +128,7 @@ void Card::take_line(int line, Instant at) {
         change = decoder.lines(static_cast<std::uint8_t>(lines[0].taken | lines[1].taken << 1));
     }
     state_.counter.count += change;
-    if (change != 0) want_pass(kernel_.now());
+    if (change != 0) passes_.request(kernel_.now());
 }
 
 }  // namespace motionrack::databoard4002

@@ -17,7 +17,7 @@ std::int64_t turn_of(std::int64_t counter) {
 
 void Card::pass(Instant now) {
     Firmware& f = state_.firmware;
-    state_.pass_at = never;
+    passes_.clear();
     if (f.access_due <= now) work(now);
     look_at_stops(now);
     position(now);
@@ -108,7 +108,7 @@ void Card::note_turn(Instant now) {
 /// anyway.
 void Card::aim(Instant now) {
     const Firmware& f = state_.firmware;
-    if (f.access != Work::none) state_.pass_at = std::min(state_.pass_at, f.access_due);
+    if (f.access != Work::none) passes_.request_at(f.access_due);
     const std::int64_t u = counter(now);
     std::int64_t below = f.turn * whole_turn - half_turn - 1, above = (f.turn + 1) * whole_turn - half_turn;
     if (f.move.on) {
@@ -127,7 +127,7 @@ void Card::aim(Instant now) {
         below = std::max(below, u - (move.direction > 0 ? back : forward));
     } else if (f.lock && f.went) {
         const std::int64_t deviation = signed24(u - f.requested);
-        if (std::abs(deviation) > f.window) want_pass(now + Duration{1});
+        if (std::abs(deviation) > f.window) passes_.request(now + Duration{1});
         above = std::min(above, u + f.window + 1 - deviation);
         below = std::max(below, u - (deviation + f.window + 1));
     }

@@ -20,7 +20,7 @@ void Card::on_wire(int pin, int level, Instant now) {
     if (pin == zero_pin || pin == ref_pin) look_at_zero(now);
     if (pin == ems_pin || pin == esr_pin || pin == esl_pin) {
         put_out(now);
-        want_pass(now);
+        passes_.request(now);
     }
     show_fout(now);
     reschedule();
@@ -35,19 +35,18 @@ std::span<const std::string_view> Card::fault_names() {
 bool Card::fault(std::string_view name, double value, Instant now) {
     begin();
     if (name == "watchdog.hang") {
-        const std::int64_t period = settings_.firmware_pass_ticks * tick.count();
         const bool hang = value != 0;
-        if (hang && !state_.hung) state_.watchdog_at = Duration{now.count() / period * period} + watchdog_time;
+        if (hang && !state_.hung) state_.watchdog_at = passes_.last_until(now) + watchdog_time;
         if (!hang) state_.watchdog_at = never;
         state_.hung = hang;
-        state_.pass_at = pass_from(now);
+        passes_.restart(now);
         reschedule();
         return true;
     }
     if (!pins_.break_wire(name, value != 0)) return false;
     look_at_zero(now);
     put_out(now);
-    want_pass(now);
+    passes_.request(now);
     reschedule();
     return true;
 }
@@ -87,7 +86,7 @@ void Card::look_at_zero(Instant now) {
     raise(seen);
     set_wants();
     update_interrupt();
-    want_pass(now);
+    passes_.request(now);
 }
 
 void Card::update_interrupt() {
