@@ -10,6 +10,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
       id_(kernel.add(*this, sim::Phase::cards, name)),
       conditions_(kernel, id_),
       passes_(state_.pass_at, settings.firmware_pass_ticks),
+      watchdog_(state_.watchdog_at, state_.hung),
       pins_(kernel, id_, name, state_.broken),
       train_(state_.train, tick) {
     MOTIONRACK_ASSERT(check(settings).has_value());
@@ -25,8 +26,8 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
 void Card::reschedule() {
     if (!state_.begun) return;
     const Instant now = kernel_.now();
-    Instant next = std::min({state_.watchdog_at, state_.reset_pulse_end, train_.next(now)});
-    if (!state_.hung) next = std::min(next, passes_.next());
+    Instant next = std::min({watchdog_.due(), state_.reset_pulse_end, train_.next(now)});
+    if (!watchdog_.hung()) next = std::min(next, passes_.next());
     if (state_.fout_wanted) next = std::min(next, state_.fout_at);
     for (const OutputLine& line : state_.counter.lines)
         if (line.changes > 0) next = std::min(next, line.free_at);
@@ -49,29 +50,26 @@ void Card::begin() {
 
 void Card::on_scheduled(Instant now) {
     begin();
-    if (state_.watchdog_at <= now) watchdog();
+    if (watchdog_.due() <= now) {
+        conditions_.report(CardCondition::watchdog_reset);
+        reset();
+    }
     if (state_.reset_pulse_end <= now) {
         state_.reset_pulse_end = never;
         pins_.set(rst_pin, 0);
     }
     look_at_lines(now);
     train_.act(now);
-    if (passes_.next() <= now && !state_.hung) pass(now);
+    if (passes_.next() <= now && !watchdog_.hung()) pass(now);
     show_fout(now);
     reschedule();
-}
-
-void Card::watchdog() {
-    conditions_.report(CardCondition::watchdog_reset);
-    reset();
 }
 
 /// Reset by power-up, C3, INP 7 or the watchdog.
 void Card::reset() {
     const Instant now = kernel_.now();
     state_.firmware = Firmware{};
-    state_.hung = 0;
-    state_.watchdog_at = never;
+    watchdog_.restart();
     set_counter(0, now);
     state_.firmware.stops = pins_.inputs() & (stat::ESL | stat::ESR | stat::EMS);
     set_wants();

@@ -17,6 +17,7 @@
 #include <motionrack/cards/databoard4002/model/pins.hpp>
 #include <motionrack/cards/databoard4002/model/settings.hpp>
 #include <motionrack/cards/databoard4002/model/state.hpp>
+#include <motionrack/cards/databoard4002/model/watchdog.hpp>
 #include <motionrack/sim/byte_device.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/position_function.hpp>
@@ -56,7 +57,7 @@ class Card final : public sim::DeferringDevice,
     std::int32_t position() const { return static_cast<std::int32_t>(signed24(counter(kernel_.now()))); }
     bool moving() const { return state_.firmware.move.on != 0; }
     bool locked() const { return state_.firmware.lock != 0; }
-    bool hung() const { return state_.hung != 0; }
+    bool hung() const { return watchdog_.hung(); }
     /// Rate at the output, negative backwards; 0 at standstill.
     int output_rate() const { return state_.firmware.out_rate * state_.firmware.move.direction; }
     /// FOUT in Hz, 0 without pulses.
@@ -84,7 +85,6 @@ class Card final : public sim::DeferringDevice,
     // card.cpp: time and ports
     void reschedule();
     void begin();
-    void watchdog();
     void access(Work kind, std::uint8_t port, std::uint8_t value);
     std::uint8_t status() const;
     void reset();
@@ -145,6 +145,7 @@ class Card final : public sim::DeferringDevice,
     sim::DeviceId id_;
     ConditionReporter conditions_;
     PassSchedule passes_;
+    Watchdog watchdog_;
     Pins pins_;
     sim::PulseTrain train_;
     sim::PositionFunction* encoder_ = nullptr;

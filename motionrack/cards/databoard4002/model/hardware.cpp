@@ -35,10 +35,10 @@ std::span<const std::string_view> Card::fault_names() {
 bool Card::fault(std::string_view name, double value, Instant now) {
     begin();
     if (name == "watchdog.hang") {
-        const bool hang = value != 0;
-        if (hang && !state_.hung) state_.watchdog_at = passes_.last_until(now) + watchdog_time;
-        if (!hang) state_.watchdog_at = never;
-        state_.hung = hang;
+        if (value != 0)
+            watchdog_.hang(passes_.last_until(now));
+        else
+            watchdog_.restart();
         passes_.restart(now);
         reschedule();
         return true;
