@@ -12,12 +12,10 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
       passes_(state_.pass_at, settings.firmware_pass_ticks),
       watchdog_(state_.watchdog_at, state_.hung),
       pins_(kernel, id_, name, state_.broken),
+      counter_(kernel, state_.counter, state_.firmware.turn, settings_, conditions_, passes_, pins_),
       train_(state_.train, tick) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     train_.set_owner(this);
-    state_.counter.closed = settings.counting == Counting::quadrature
-                                ? sim::ClosedFormCounter(settings.folding, false, settings.first_pair)
-                                : sim::ClosedFormCounter();
     kernel.schedule(id_, Instant{0});
 }
 
@@ -29,9 +27,7 @@ void Card::reschedule() {
     Instant next = std::min({watchdog_.due(), state_.reset_pulse_end, train_.next(now)});
     if (!watchdog_.hung()) next = std::min(next, passes_.next());
     if (state_.fout_wanted) next = std::min(next, state_.fout_at);
-    for (const OutputLine& line : state_.counter.lines)
-        if (line.changes > 0) next = std::min(next, line.free_at);
-    kernel_.schedule(id_, next);
+    kernel_.schedule(id_, std::min(next, counter_.next()));
 }
 
 /// State of the inputs at power-up.
@@ -39,14 +35,41 @@ void Card::begin() {
     if (state_.begun) return;
     const Instant now = kernel_.now();
     state_.begun = 1;
-    for (const Pin pin : {o1_pin, o2_pin}) {
-        pins_.subscribe(pin, !connected());
-        OutputLine& line = state_.counter.lines[static_cast<std::size_t>(pin)];
-        line.raw = line.taken = pins_.level(pin) != 0;
-    }
-    if (encoder_) rate_changed(0, encoder_->rate(now), now);
+    counter_.begin();
+    if (counter_.has_encoder()) rate_changed(0, counter_.encoder_rate(now), now);
     reset();
 }
+
+// ---- the encoder
+
+void Card::connect_encoder(sim::PositionFunction& counts) {
+    MOTIONRACK_ASSERT(!state_.begun);
+    counter_.connect(counts, *this);
+}
+
+void Card::take_encoder(bool taken) {
+    if (!counter_.can_take(taken)) return;
+    begin();
+    const Instant now = kernel_.now();
+    counter_.take(taken, now);
+    if (!taken) rate_changed(0, counter_.encoder_rate(now), now);
+    passes_.request(now);
+    reschedule();
+}
+
+void Card::crossed(Instant now) {
+    counter_.clear_watch();
+    passes_.request(now);
+    reschedule();
+}
+
+void Card::rate_changed(double, double rate, Instant now) {
+    if (!counter_.rate_changed(rate, now)) return;
+    passes_.request(now);
+    reschedule();
+}
+
+// ---- events of the kernel
 
 void Card::on_scheduled(Instant now) {
     begin();
@@ -58,7 +81,7 @@ void Card::on_scheduled(Instant now) {
         state_.reset_pulse_end = never;
         pins_.set(rst_pin, 0);
     }
-    look_at_lines(now);
+    counter_.look_at_lines(now);
     train_.act(now);
     if (passes_.next() <= now && !watchdog_.hung()) pass(now);
     show_fout(now);
@@ -70,7 +93,7 @@ void Card::reset() {
     const Instant now = kernel_.now();
     state_.firmware = Firmware{};
     watchdog_.restart();
-    set_counter(0, now);
+    counter_.zero(now);
     state_.firmware.stops = pins_.inputs() & (stat::ESL | stat::ESR | stat::EMS);
     set_wants();
     put_out(now);

@@ -15,6 +15,7 @@
 #include <motionrack/cards/databoard4002/model/condition_reporter.hpp>
 #include <motionrack/cards/databoard4002/model/pass_schedule.hpp>
 #include <motionrack/cards/databoard4002/model/pins.hpp>
+#include <motionrack/cards/databoard4002/model/position_counter.hpp>
 #include <motionrack/cards/databoard4002/model/settings.hpp>
 #include <motionrack/cards/databoard4002/model/state.hpp>
 #include <motionrack/cards/databoard4002/model/watchdog.hpp>
@@ -54,7 +55,7 @@ class Card final : public sim::DeferringDevice,
 
     // ---- inspection
     /// The counter, -8,388,608 .. 8,388,607.
-    std::int32_t position() const { return static_cast<std::int32_t>(signed24(counter(kernel_.now()))); }
+    std::int32_t position() const { return static_cast<std::int32_t>(signed24(counter_.value(kernel_.now()))); }
     bool moving() const { return state_.firmware.move.on != 0; }
     bool locked() const { return state_.firmware.lock != 0; }
     bool hung() const { return watchdog_.hung(); }
@@ -97,7 +98,6 @@ class Card final : public sim::DeferringDevice,
     void begin_move(std::int64_t target, Instant now);
     void go(Instant now);
     void aim(Instant now);
-    void note_turn(Instant now);
 
     // commands.cpp: an access
     void work(Instant now);
@@ -122,17 +122,6 @@ class Card final : public sim::DeferringDevice,
     void update_interrupt();
     void show_fout(Instant now);
 
-    // counter.cpp
-    bool connected() const { return encoder_ != nullptr && !state_.counter.cut; }
-    std::int64_t counter(Instant t) const;
-    void set_counter(std::int64_t value, Instant now);
-    void watch_counter(std::int64_t below, std::int64_t above);
-    void line_changed(int line, int level, Instant now);
-    void take_line(int line, Instant at);
-    void look_at_lines(Instant now);
-    double limit_hz() const { return settings_.single_ended ? 50'000 : 100'000; }
-    Duration half_period() const { return microseconds(settings_.single_ended ? 10 : 5); }
-    bool too_quick(double rate) const;
     void crossed(Instant now) override;
     void rate_changed(double before, double rate, Instant now) override;
 
@@ -147,9 +136,8 @@ class Card final : public sim::DeferringDevice,
     PassSchedule passes_;
     Watchdog watchdog_;
     Pins pins_;
+    PositionCounter counter_;
     sim::PulseTrain train_;
-    sim::PositionFunction* encoder_ = nullptr;
-    int encoder_slot_ = 0;
 };
 
 }  // namespace motionrack::databoard4002

@@ -48,9 +48,8 @@ void Card::open_answer(std::uint8_t code, Collecting collecting, std::int64_t va
 
 /// Sets the present position to 0; the distance travelled in a move is kept.
 void Card::zero_counter(Instant now) {
-    state_.firmware.move.start -= counter(now);
-    set_counter(0, now);
-    state_.firmware.turn = 0;
+    state_.firmware.move.start -= counter_.value(now);
+    counter_.zero(now);
 }
 
 void Card::take_command(std::uint8_t code, Instant now) {
@@ -69,7 +68,7 @@ void Card::take_command(std::uint8_t code, Instant now) {
             if (!f.move.on) f.requested = 0;
             return;
         case command("D"):
-            return open_answer(code, Collecting::either, signed24(counter(now) - f.requested), 3);
+            return open_answer(code, Collecting::either, signed24(counter_.value(now) - f.requested), 3);
         case command("G"):
             return go(now);
         case command("I"):
@@ -89,7 +88,7 @@ void Card::take_command(std::uint8_t code, Instant now) {
             f.rate = max_rate;
             return;
         case command("P"):
-            return open_answer(code, Collecting::either, signed24(counter(now)), 3);
+            return open_answer(code, Collecting::either, signed24(counter_.value(now)), 3);
         case command("Q"):
             f.move.on = f.lock = 0;
             if (settings_.quit_zeroes) f.target = f.number = 0;

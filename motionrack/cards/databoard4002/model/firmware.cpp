@@ -7,11 +7,8 @@ namespace motionrack::databoard4002 {
 
 namespace {
 
-constexpr std::int64_t half_turn = std::int64_t{1} << 23, whole_turn = std::int64_t{1} << 24;
-
-std::int64_t turn_of(std::int64_t counter) {
-    return (counter + half_turn) >> 24;
-}
+/// Beyond it a 24-bit difference changes its sign.
+constexpr std::int64_t half_range = std::int64_t{1} << 23;
 
 }  // namespace
 
@@ -21,7 +18,7 @@ void Card::pass(Instant now) {
     if (f.access_due <= now) work(now);
     look_at_stops(now);
     position(now);
-    note_turn(now);
+    counter_.note_turn(now);
     f.out_rate = speed(now);
     put_out(now);
     update_interrupt();
@@ -35,14 +32,14 @@ void Card::look_at_stops(Instant now) {
     f.stops = active;
     if (risen) raise(event::STOP);
     if (!(active & stat::EMS)) return;
-    if (f.move.on) conditions_.report(CardCondition::move_aborted, signed24(counter(now)), f.move.target);
+    if (f.move.on) conditions_.report(CardCondition::move_aborted, signed24(counter_.value(now)), f.move.target);
     f.move.on = 0;
     f.lock = 0;
 }
 
 void Card::position(Instant now) {
     Firmware& f = state_.firmware;
-    const std::int64_t u = counter(now);
+    const std::int64_t u = counter_.value(now);
     if (f.move.on) {
         if (signed24(f.move.target - u) * f.move.direction > 0) return;
         f.move.on = 0;
@@ -56,7 +53,7 @@ int Card::speed(Instant now) const {
     const Firmware& f = state_.firmware;
     if (!f.move.on) return 0;
     if (!f.move.sloped) return f.rate;
-    const std::int64_t u = counter(now);
+    const std::int64_t u = counter_.value(now);
     const std::int64_t to_go = signed24(f.move.target - u) * f.move.direction;
     const std::int64_t travelled = signed24(u - f.move.start) * f.move.direction;
     return std::min({f.rate, f.move.table.decelerating(to_go).rate,
@@ -65,7 +62,7 @@ int Card::speed(Instant now) const {
 
 void Card::go(Instant now) {
     Firmware& f = state_.firmware;
-    const std::int64_t here = signed24(counter(now));
+    const std::int64_t here = signed24(counter_.value(now));
     const std::int64_t target = f.relative ? here + f.number : f.target;
     if (target != signed24(target) || std::abs(target - here) > max_move_counts)
         return conditions_.report(CardCondition::move_refused, target, here);
@@ -88,7 +85,7 @@ void Card::report_flaw() {
 
 void Card::begin_move(std::int64_t target, Instant now) {
     Firmware& f = state_.firmware;
-    const std::int64_t u = counter(now);
+    const std::int64_t u = counter_.value(now);
     f.move.target = target;
     f.move.start = u;
     f.move.direction = target >= signed24(u) ? 1 : -1;
@@ -97,30 +94,23 @@ void Card::begin_move(std::int64_t target, Instant now) {
     if (f.sloped) f.move.table = f.table;
 }
 
-void Card::note_turn(Instant now) {
-    const std::int64_t u = counter(now), turn = turn_of(u);
-    if (turn == state_.firmware.turn) return;
-    state_.firmware.turn = turn;
-    conditions_.report(CardCondition::position_wrapped, u);
-}
-
 /// Watches the counter for the next position at which a pass has an effect, and requests the next pass that is due
 /// anyway.
 void Card::aim(Instant now) {
     const Firmware& f = state_.firmware;
     if (f.access != Work::none) passes_.request_at(f.access_due);
-    const std::int64_t u = counter(now);
-    std::int64_t below = f.turn * whole_turn - half_turn - 1, above = (f.turn + 1) * whole_turn - half_turn;
+    const std::int64_t u = counter_.value(now);
+    auto [below, above] = counter_.turn_range();
     if (f.move.on) {
         const TargetMove& move = f.move;
         const std::int64_t to_go = signed24(move.target - u) * move.direction;
-        std::int64_t forward = to_go, back = half_turn - to_go;  // beyond it the 24-bit difference changes its sign
+        std::int64_t forward = to_go, back = half_range - to_go;
         if (move.sloped) {
             const std::int64_t travelled = signed24(u - move.start) * move.direction;
             const SlopeTable::Step slower = move.table.decelerating(to_go);
             const SlopeTable::Step faster = move.table.accelerating(std::max<std::int64_t>(0, travelled));
-            forward = std::min({forward, to_go - slower.min + 1, faster.max + 1 - travelled, half_turn - travelled});
-            back = std::min({back, slower.max + 1 - to_go, travelled + half_turn + 1});
+            forward = std::min({forward, to_go - slower.min + 1, faster.max + 1 - travelled, half_range - travelled});
+            back = std::min({back, slower.max + 1 - to_go, travelled + half_range + 1});
             if (faster.min > 0) back = std::min(back, travelled - faster.min + 1);
         }
         above = std::min(above, u + (move.direction > 0 ? forward : back));
@@ -131,7 +121,7 @@ void Card::aim(Instant now) {
         above = std::min(above, u + f.window + 1 - deviation);
         below = std::max(below, u - (deviation + f.window + 1));
     }
-    watch_counter(std::min(below, u - 1), std::max(above, u + 1));
+    counter_.watch({std::min(below, u - 1), std::max(above, u + 1)});
 }
 
 }  // namespace motionrack::databoard4002

@@ -16,7 +16,7 @@ void Card::set_wants() {
 
 void Card::on_wire(int pin, int level, Instant now) {
     begin();
-    if (pin == o1_pin || pin == o2_pin) line_changed(pin, level, now);
+    if (pin == o1_pin || pin == o2_pin) counter_.line_changed(pin, level, now);
     if (pin == zero_pin || pin == ref_pin) look_at_zero(now);
     if (pin == ems_pin || pin == esr_pin || pin == esl_pin) {
         put_out(now);
