@@ -13,6 +13,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
       watchdog_(state_.watchdog_at, state_.hung),
       pins_(kernel, id_, name, state_.broken),
       counter_(kernel, state_.counter, state_.firmware.turn, settings_, conditions_, passes_, pins_),
+      events_(state_.firmware.events, pins_),
       train_(state_.train, tick) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     train_.set_owner(this);
@@ -94,8 +95,8 @@ void Card::reset() {
     state_.firmware = Firmware{};
     watchdog_.restart();
     counter_.zero(now);
-    state_.firmware.stops = pins_.inputs() & (stat::ESL | stat::ESR | stat::EMS);
-    set_wants();
+    events_.take_stops();
+    events_.subscribe_zero();
     put_out(now);
     update_interrupt();
     passes_.restart(now);
@@ -154,7 +155,7 @@ std::uint8_t Card::status() const {
     const Firmware& f = state_.firmware;
     unsigned out = pins_.inputs();
     if (f.ready) out |= stat::READY;
-    if (f.pending) out |= stat::EVENT;
+    if (events_.pending()) out |= stat::EVENT;
     if (pins_.level(interrupt_pin) != 0) out |= stat::INT;
     return static_cast<std::uint8_t>(out);
 }

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <motionrack/cards/databoard4002/model/condition_reporter.hpp>
+#include <motionrack/cards/databoard4002/model/event_register.hpp>
 #include <motionrack/cards/databoard4002/model/pass_schedule.hpp>
 #include <motionrack/cards/databoard4002/model/pins.hpp>
 #include <motionrack/cards/databoard4002/model/position_counter.hpp>
@@ -63,9 +64,7 @@ class Card final : public sim::DeferringDevice,
     int output_rate() const { return state_.firmware.out_rate * state_.firmware.move.direction; }
     /// FOUT in Hz, 0 without pulses.
     double fout_hz() const { return train_.running() ? hz_of(state_.firmware.out_rate) : 0; }
-    std::uint8_t event_word() const {
-        return state_.firmware.pending ? state_.firmware.latched : state_.firmware.event;
-    }
+    std::uint8_t event_word() const { return events_.word(); }
     const SlopeTable& table() const { return state_.firmware.table; }
     const Settings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
@@ -92,7 +91,6 @@ class Card final : public sim::DeferringDevice,
 
     // firmware.cpp: a pass
     void pass(Instant now);
-    void look_at_stops(Instant now);
     void position(Instant now);
     int speed(Instant now) const;
     void begin_move(std::int64_t target, Instant now);
@@ -112,11 +110,7 @@ class Card final : public sim::DeferringDevice,
     void zero_counter(Instant now);
 
     // hardware.cpp: wires, events, outputs
-    void raise(std::uint8_t bits);
-    void check_events();
     void look_at_zero(Instant now);
-    bool zero_condition() const;
-    void set_wants();
     bool gate_open() const;
     void put_out(Instant now);
     void update_interrupt();
@@ -137,6 +131,7 @@ class Card final : public sim::DeferringDevice,
     Watchdog watchdog_;
     Pins pins_;
     PositionCounter counter_;
+    EventRegister events_;
     sim::PulseTrain train_;
 };
 

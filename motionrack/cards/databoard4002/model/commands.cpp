@@ -98,7 +98,7 @@ void Card::take_command(std::uint8_t code, Instant now) {
         case command("V"):
             return open_answer(code, Collecting::answering, settings_.version, 1);
         case command("W"):
-            f.event = static_cast<std::uint8_t>(f.event & ~event::WATCH_OUT);
+            events_.clear(event::WATCH_OUT);
             return;
         default:
             conditions_.report(CardCondition::unknown_command, code);
@@ -164,19 +164,12 @@ void Card::next_answer() {
 
 void Card::enable_events(std::uint8_t value) {
     Firmware& f = state_.firmware;
-    const std::uint8_t shown = event_word();
-    f.latch = shown;
-    f.event = static_cast<std::uint8_t>(f.event & ~(shown & ~event::WATCH_OUT));
-    f.pending = 0;
-    f.enables = value & event::maskable;
-    f.interrupts = value & (event::ON_READY | event::ON_EVENT);
-    f.armed = value & (event::ZERO | event::REF);
-    f.armed_condition = zero_condition();
+    f.latch = events_.enable(value);
     f.answer_left = 0;
     if (f.collecting == Collecting::answering) f.collecting = Collecting::idle;
     if (f.collecting == Collecting::either) f.collecting = Collecting::collecting;
-    set_wants();
-    check_events();
+    events_.subscribe_zero();
+    events_.check();
 }
 
 }  // namespace motionrack::databoard4002

@@ -16,7 +16,11 @@ void Card::pass(Instant now) {
     Firmware& f = state_.firmware;
     passes_.clear();
     if (f.access_due <= now) work(now);
-    look_at_stops(now);
+    if (events_.note_stops() & stat::EMS) {
+        if (f.move.on) conditions_.report(CardCondition::move_aborted, signed24(counter_.value(now)), f.move.target);
+        f.move.on = 0;
+        f.lock = 0;
+    }
     position(now);
     counter_.note_turn(now);
     f.out_rate = speed(now);
@@ -25,25 +29,13 @@ void Card::pass(Instant now) {
     aim(now);
 }
 
-void Card::look_at_stops(Instant now) {
-    Firmware& f = state_.firmware;
-    const auto active = static_cast<std::uint8_t>(pins_.inputs() & (stat::ESL | stat::ESR | stat::EMS));
-    const bool risen = (active & ~f.stops) != 0;
-    f.stops = active;
-    if (risen) raise(event::STOP);
-    if (!(active & stat::EMS)) return;
-    if (f.move.on) conditions_.report(CardCondition::move_aborted, signed24(counter_.value(now)), f.move.target);
-    f.move.on = 0;
-    f.lock = 0;
-}
-
 void Card::position(Instant now) {
     Firmware& f = state_.firmware;
     const std::int64_t u = counter_.value(now);
     if (f.move.on) {
         if (signed24(f.move.target - u) * f.move.direction > 0) return;
         f.move.on = 0;
-        raise(event::POSITION);
+        events_.raise(event::POSITION);
     } else if (f.lock && f.went && std::abs(signed24(u - f.requested)) > f.window) {
         begin_move(f.requested, now);
     }
@@ -69,7 +61,7 @@ void Card::go(Instant now) {
     if (pins_.inputs() & stat::EMS) return conditions_.report(CardCondition::go_in_emergency, here);
     if (f.move.on) conditions_.report(CardCondition::during_move, 'G');
     if (f.sloped) report_flaw();
-    f.event = static_cast<std::uint8_t>(f.event & ~event::POSITION);
+    events_.clear(event::POSITION);
     f.lock = 0;
     f.went = 1;
     f.requested = target;

@@ -7,13 +7,6 @@
 
 namespace motionrack::databoard4002 {
 
-// ---- inputs
-
-/// A zero pulse is computed only while it is awaited, so an idle encoder costs no time.
-void Card::set_wants() {
-    pins_.subscribe(zero_pin, (state_.firmware.armed & event::ZERO) != 0);
-}
-
 void Card::on_wire(int pin, int level, Instant now) {
     begin();
     if (pin == o1_pin || pin == o2_pin) counter_.line_changed(pin, level, now);
@@ -53,46 +46,18 @@ bool Card::fault(std::string_view name, double value, Instant now) {
 
 // ---- events
 
-/// Events that are not enabled do not happen.
-void Card::raise(std::uint8_t bits) {
-    state_.firmware.event |= bits & state_.firmware.enables;
-    check_events();
-}
-
-void Card::check_events() {
-    Firmware& f = state_.firmware;
-    if (f.pending || !(f.event & f.enables)) return;
-    f.latched = f.event;
-    f.pending = 1;
-}
-
-bool Card::zero_condition() const {
-    const std::uint8_t armed = state_.firmware.armed;
-    if ((armed & event::ZERO) && pins_.level(zero_pin) == 0) return false;
-    return armed != 0 && (!(armed & event::REF) || pins_.input(ref_pin, stat::REF));
-}
-
 void Card::look_at_zero(Instant now) {
-    Firmware& f = state_.firmware;
-    if (!f.armed) return;
-    const bool condition = zero_condition();
-    if (!condition || f.armed_condition) {
-        f.armed_condition = condition;
-        return;
-    }
-    const std::uint8_t seen = f.armed;
-    f.armed = 0;
+    const std::uint8_t seen = events_.take_armed();
+    if (seen == 0) return;
     if (settings_.zeroing) zero_counter(now);
-    raise(seen);
-    set_wants();
+    events_.raise(seen);
+    events_.subscribe_zero();
     update_interrupt();
     passes_.request(now);
 }
 
 void Card::update_interrupt() {
-    const Firmware& f = state_.firmware;
-    const bool asked = ((f.interrupts & event::ON_READY) && f.ready) || ((f.interrupts & event::ON_EVENT) && f.pending);
-    pins_.set_interrupt(asked);
+    events_.update_interrupt(state_.firmware.ready != 0);
 }
 
 // ---- outputs

@@ -32,6 +32,12 @@ struct TargetMove {
     SlopeTable table;
 };
 
+struct EventState {
+    std::uint8_t event = event::WATCH_OUT, latched = 0, pending = 0, enables = 0;
+    std::uint8_t interrupts = 0, armed = 0, armed_condition = 0,
+                 stops = 0;  ///< stops: STAT bits of ESL, ESR, EMS at the last pass
+};
+
 /// The part of the state that a reset clears.
 struct Firmware {
     // handshake and collector
@@ -54,10 +60,7 @@ struct Firmware {
     std::uint8_t relative = 0, sloped = 0, lock = 0, went = 0;  ///< went: a G was executed
     SlopeTable table;
     TargetMove move;
-    // events
-    std::uint8_t event = event::WATCH_OUT, latched = 0, pending = 0, enables = 0;
-    std::uint8_t interrupts = 0, armed = 0, armed_condition = 0,
-                 stops = 0;  ///< stops: STAT bits of ESL, ESR, EMS at the last pass
+    EventState events;
     // outputs of the last pass
     std::int32_t out_rate = 0;
     std::int32_t reserved2 = 0;
