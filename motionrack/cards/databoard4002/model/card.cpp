@@ -14,6 +14,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
       pins_(kernel, id_, name, state_.broken),
       counter_(kernel, state_.counter, state_.firmware.turn, settings_, conditions_, passes_, pins_),
       events_(state_.firmware.events, pins_),
+      positioner_(state_.firmware.positioner, conditions_, passes_, pins_, counter_, events_),
       train_(state_.train, tick) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     train_.set_owner(this);
@@ -87,6 +88,21 @@ void Card::on_scheduled(Instant now) {
     if (passes_.next() <= now && !watchdog_.hung()) pass(now);
     show_fout(now);
     reschedule();
+}
+
+/// Updates the state once, as the loop of the firmware does.
+void Card::pass(Instant now) {
+    Firmware& f = state_.firmware;
+    passes_.clear();
+    if (f.access_due <= now) work(now);
+    if (events_.note_stops() & stat::EMS) positioner_.abort(now);
+    positioner_.check_position(now);
+    counter_.note_turn(now);
+    f.out_rate = positioner_.output_rate(now);
+    put_out(now);
+    update_interrupt();
+    if (f.access != Work::none) passes_.request_at(f.access_due);
+    positioner_.aim(now);
 }
 
 /// Reset by power-up, C3, INP 7 or the watchdog.

@@ -17,6 +17,7 @@
 #include <motionrack/cards/databoard4002/model/pass_schedule.hpp>
 #include <motionrack/cards/databoard4002/model/pins.hpp>
 #include <motionrack/cards/databoard4002/model/position_counter.hpp>
+#include <motionrack/cards/databoard4002/model/positioner.hpp>
 #include <motionrack/cards/databoard4002/model/settings.hpp>
 #include <motionrack/cards/databoard4002/model/state.hpp>
 #include <motionrack/cards/databoard4002/model/watchdog.hpp>
@@ -57,15 +58,15 @@ class Card final : public sim::DeferringDevice,
     // ---- inspection
     /// The counter, -8,388,608 .. 8,388,607.
     std::int32_t position() const { return static_cast<std::int32_t>(signed24(counter_.value(kernel_.now()))); }
-    bool moving() const { return state_.firmware.move.on != 0; }
-    bool locked() const { return state_.firmware.lock != 0; }
+    bool moving() const { return positioner_.moving(); }
+    bool locked() const { return positioner_.locked(); }
     bool hung() const { return watchdog_.hung(); }
     /// Rate at the output, negative backwards; 0 at standstill.
-    int output_rate() const { return state_.firmware.out_rate * state_.firmware.move.direction; }
+    int output_rate() const { return state_.firmware.out_rate * positioner_.direction(); }
     /// FOUT in Hz, 0 without pulses.
     double fout_hz() const { return train_.running() ? hz_of(state_.firmware.out_rate) : 0; }
     std::uint8_t event_word() const { return events_.word(); }
-    const SlopeTable& table() const { return state_.firmware.table; }
+    const SlopeTable& table() const { return positioner_.table(); }
     const Settings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
     sim::WireId interrupt_wire() const { return pins_.wire(interrupt_pin); }
@@ -89,13 +90,7 @@ class Card final : public sim::DeferringDevice,
     std::uint8_t status() const;
     void reset();
 
-    // firmware.cpp: a pass
     void pass(Instant now);
-    void position(Instant now);
-    int speed(Instant now) const;
-    void begin_move(std::int64_t target, Instant now);
-    void go(Instant now);
-    void aim(Instant now);
 
     // commands.cpp: an access
     void work(Instant now);
@@ -106,8 +101,6 @@ class Card final : public sim::DeferringDevice,
     void open(std::uint8_t code, Collecting collecting);
     void open_answer(std::uint8_t code, Collecting collecting, std::int64_t value, int bytes);
     void enable_events(std::uint8_t value);
-    void report_flaw();
-    void zero_counter(Instant now);
 
     // hardware.cpp: wires, events, outputs
     void look_at_zero(Instant now);
@@ -132,6 +125,7 @@ class Card final : public sim::DeferringDevice,
     Pins pins_;
     PositionCounter counter_;
     EventRegister events_;
+    Positioner positioner_;
     sim::PulseTrain train_;
 };
 

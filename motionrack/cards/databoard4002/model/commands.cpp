@@ -46,12 +46,6 @@ void Card::open_answer(std::uint8_t code, Collecting collecting, std::int64_t va
     f.answer_left = static_cast<std::uint8_t>(bytes - 1);
 }
 
-/// Sets the present position to 0; the distance travelled in a move is kept.
-void Card::zero_counter(Instant now) {
-    state_.firmware.move.start -= counter_.value(now);
-    counter_.zero(now);
-}
-
 void Card::take_command(std::uint8_t code, Instant now) {
     Firmware& f = state_.firmware;
     if (f.collecting == Collecting::collecting && f.collected > 0)
@@ -59,40 +53,32 @@ void Card::take_command(std::uint8_t code, Instant now) {
     f.collecting = Collecting::idle;
     f.answer_left = 0;
     auto heard_while_moving = [&] {
-        if (f.move.on) conditions_.report(CardCondition::during_move, code);
+        if (positioner_.moving()) conditions_.report(CardCondition::during_move, code);
     };
     switch (code) {
         case command("A"):
             heard_while_moving();
-            zero_counter(now);
-            if (!f.move.on) f.requested = 0;
-            return;
+            return positioner_.home(now);
         case command("D"):
-            return open_answer(code, Collecting::either, signed24(counter_.value(now) - f.requested), 3);
+            return open_answer(code, Collecting::either, positioner_.deviation(now), 3);
         case command("G"):
-            return go(now);
+            return positioner_.go(now);
         case command("I"):
             return;
         case command("L"):
-            f.lock = 1;
-            return;
+            return positioner_.lock();
         case command("M"):
-            f.sloped = f.lock = 0;
-            return;
+            return positioner_.select_manual();
         case command("N"):
         case command("S"):
             heard_while_moving();
             return open(code, Collecting::collecting);
         case command("O"):
-            f.sloped = 1;
-            f.rate = max_rate;
-            return;
+            return positioner_.select_slope();
         case command("P"):
             return open_answer(code, Collecting::either, signed24(counter_.value(now)), 3);
         case command("Q"):
-            f.move.on = f.lock = 0;
-            if (settings_.quit_zeroes) f.target = f.number = 0;
-            return;
+            return positioner_.quit(settings_.quit_zeroes);
         case command("R"):
             return open_answer(code, Collecting::either, output_rate(), 2);
         case command("V"):
@@ -115,7 +101,7 @@ void Card::take_argument(std::uint8_t value) {
     }
     if (f.collecting != Collecting::collecting) return conditions_.report(CardCondition::data_unexpected, value);
     if (f.collector == command("S"))
-        f.table.set_byte(f.collected, value);
+        positioner_.set_table_byte(f.collected, value);
     else
         f.argument |= std::uint32_t{value} << (8 * f.collected);
     if (++f.collected == argument_bytes(f.collector)) {
@@ -128,20 +114,14 @@ void Card::arguments_complete(std::uint8_t code) {
     Firmware& f = state_.firmware;
     switch (code) {
         case command("D"):
-            f.window = std::abs(signed24(f.argument));
-            return;
+            return positioner_.set_window(std::abs(signed24(f.argument)));
         case command("N"):
-            f.number = signed24(f.argument);
-            f.relative = 1;
-            return;
+            return positioner_.set_number(signed24(f.argument));
         case command("P"):
-            if (f.move.on) conditions_.report(CardCondition::during_move, code);
-            f.target = signed24(f.argument);
-            f.relative = 0;
-            return;
+            if (positioner_.moving()) conditions_.report(CardCondition::during_move, code);
+            return positioner_.set_target(signed24(f.argument));
         case command("R"):
-            f.rate = static_cast<std::int32_t>(f.argument) & rate_mask;
-            return;
+            return positioner_.set_rate(static_cast<std::int32_t>(f.argument) & rate_mask);
         default:
             return;
     }

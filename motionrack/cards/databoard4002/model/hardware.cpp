@@ -49,7 +49,7 @@ bool Card::fault(std::string_view name, double value, Instant now) {
 void Card::look_at_zero(Instant now) {
     const std::uint8_t seen = events_.take_armed();
     if (seen == 0) return;
-    if (settings_.zeroing) zero_counter(now);
+    if (settings_.zeroing) positioner_.zero(now);
     events_.raise(seen);
     events_.subscribe_zero();
     update_interrupt();
@@ -63,15 +63,15 @@ void Card::update_interrupt() {
 // ---- outputs
 
 bool Card::gate_open() const {
-    return state_.firmware.move.direction > 0 ? !pins_.input(esr_pin, stat::ESR) : !pins_.input(esl_pin, stat::ESL);
+    return positioner_.direction() > 0 ? !pins_.input(esr_pin, stat::ESR) : !pins_.input(esl_pin, stat::ESL);
 }
 
 void Card::put_out(Instant now) {
     show_fout(now);  // a pulse at this very instant keeps the old sign
     const Firmware& f = state_.firmware;
-    const int rate = f.out_rate, direction = f.move.direction;
+    const int rate = f.out_rate, direction = positioner_.direction();
     const bool driven = rate > 0 && gate_open();
-    const bool relay = f.rate != 0 && !pins_.input(ems_pin, stat::EMS);
+    const bool relay = positioner_.rate() != 0 && !pins_.input(ems_pin, stat::EMS);
     pins_.set(sign_pin, direction > 0);
     pins_.set(relay_pin, relay);
     const int microvolts = driven ? direction * microvolts_of(rate, settings_.trim) : 0;

@@ -32,6 +32,14 @@ struct TargetMove {
     SlopeTable table;
 };
 
+struct PositionerState {
+    std::int64_t target = 0, number = 0, window = 0, requested = 0;
+    std::int32_t rate = 0;
+    std::uint8_t relative = 0, sloped = 0, lock = 0, went = 0;  ///< went: a G was executed
+    SlopeTable table;
+    TargetMove move;
+};
+
 struct EventState {
     std::uint8_t event = event::WATCH_OUT, latched = 0, pending = 0, enables = 0;
     std::uint8_t interrupts = 0, armed = 0, armed_condition = 0,
@@ -54,12 +62,7 @@ struct Firmware {
     std::uint32_t answer = 0;  ///< remaining part of the answer
     std::int32_t reserved1 = 0;
     Instant access_due = never;
-    // registers
-    std::int64_t target = 0, number = 0, window = 0, requested = 0;
-    std::int32_t rate = 0;
-    std::uint8_t relative = 0, sloped = 0, lock = 0, went = 0;  ///< went: a G was executed
-    SlopeTable table;
-    TargetMove move;
+    PositionerState positioner;
     EventState events;
     // outputs of the last pass
     std::int32_t out_rate = 0;
