@@ -15,9 +15,9 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
       counter_(kernel, state_.counter, state_.firmware.turn, settings_, conditions_, passes_, pins_),
       events_(state_.firmware.events, pins_),
       positioner_(state_.firmware.positioner, conditions_, passes_, pins_, counter_, events_),
-      train_(state_.train, tick) {
+      outputs_(state_, settings_, positioner_, pins_) {
     MOTIONRACK_ASSERT(check(settings).has_value());
-    train_.set_owner(this);
+    outputs_.train().set_owner(this);
     kernel.schedule(id_, Instant{0});
 }
 
@@ -26,10 +26,9 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
 void Card::reschedule() {
     if (!state_.begun) return;
     const Instant now = kernel_.now();
-    Instant next = std::min({watchdog_.due(), state_.reset_pulse_end, train_.next(now)});
+    Instant next = std::min({watchdog_.due(), outputs_.next(now), counter_.next()});
     if (!watchdog_.hung()) next = std::min(next, passes_.next());
-    if (state_.fout_wanted) next = std::min(next, state_.fout_at);
-    kernel_.schedule(id_, std::min(next, counter_.next()));
+    kernel_.schedule(id_, next);
 }
 
 /// State of the inputs at power-up.
@@ -79,14 +78,32 @@ void Card::on_scheduled(Instant now) {
         conditions_.report(CardCondition::watchdog_reset);
         reset();
     }
-    if (state_.reset_pulse_end <= now) {
-        state_.reset_pulse_end = never;
-        pins_.set(rst_pin, 0);
-    }
+    outputs_.end_reset_pulse(now);
     counter_.look_at_lines(now);
-    train_.act(now);
+    outputs_.act(now);
     if (passes_.next() <= now && !watchdog_.hung()) pass(now);
-    show_fout(now);
+    outputs_.show_fout(now);
+    reschedule();
+}
+
+void Card::on_wire(int pin, int level, Instant now) {
+    begin();
+    if (pin == o1_pin || pin == o2_pin) counter_.line_changed(pin, level, now);
+    if (pin == zero_pin || pin == ref_pin) look_at_zero(now);
+    if (pin == ems_pin || pin == esr_pin || pin == esl_pin) {
+        outputs_.update(now);
+        passes_.request(now);
+    }
+    outputs_.show_fout(now);
+    reschedule();
+}
+
+int Card::level_at(int, Instant now) const {
+    return outputs_.fout_level(now);
+}
+
+void Card::wanted_changed(int, bool wanted, Instant now) {
+    outputs_.follow_fout(wanted, now);
     reschedule();
 }
 
@@ -98,8 +115,8 @@ void Card::pass(Instant now) {
     if (events_.note_stops() & stat::EMS) positioner_.abort(now);
     positioner_.check_position(now);
     counter_.note_turn(now);
-    f.out_rate = positioner_.output_rate(now);
-    put_out(now);
+    outputs_.set_rate(positioner_.output_rate(now));
+    outputs_.update(now);
     update_interrupt();
     if (f.access != Work::none) passes_.request_at(f.access_due);
     positioner_.aim(now);
@@ -113,10 +130,24 @@ void Card::reset() {
     counter_.zero(now);
     events_.take_stops();
     events_.subscribe_zero();
-    put_out(now);
+    outputs_.update(now);
     update_interrupt();
     passes_.restart(now);
     reschedule();
+}
+
+void Card::look_at_zero(Instant now) {
+    const std::uint8_t seen = events_.take_armed();
+    if (seen == 0) return;
+    if (settings_.zeroing) positioner_.zero(now);
+    events_.raise(seen);
+    events_.subscribe_zero();
+    update_interrupt();
+    passes_.request(now);
+}
+
+void Card::update_interrupt() {
+    events_.update_interrupt(state_.firmware.ready != 0);
 }
 
 // ---- ports
@@ -159,8 +190,7 @@ void Card::out(std::uint8_t port, std::uint8_t value) {
         case ports::C4:
             return access(Work::enables, port, value);
         case ports::C3:
-            state_.reset_pulse_end = kernel_.now() + reset_pulse;
-            pins_.set(rst_pin, 1);
+            outputs_.begin_reset_pulse(kernel_.now());
             return reset();
         default:
             return;
@@ -174,6 +204,33 @@ std::uint8_t Card::status() const {
     if (events_.pending()) out |= stat::EVENT;
     if (pins_.level(interrupt_pin) != 0) out |= stat::INT;
     return static_cast<std::uint8_t>(out);
+}
+
+// ---- faults
+
+std::span<const std::string_view> Card::fault_names() {
+    static constexpr std::string_view names[] = {"watchdog.hang", "esl.broken", "esr.broken", "ems.broken",
+                                                 "ref.broken"};
+    return names;
+}
+
+bool Card::fault(std::string_view name, double value, Instant now) {
+    begin();
+    if (name == "watchdog.hang") {
+        if (value != 0)
+            watchdog_.hang(passes_.last_until(now));
+        else
+            watchdog_.restart();
+        passes_.restart(now);
+        reschedule();
+        return true;
+    }
+    if (!pins_.break_wire(name, value != 0)) return false;
+    look_at_zero(now);
+    outputs_.update(now);
+    passes_.request(now);
+    reschedule();
+    return true;
 }
 
 }  // namespace motionrack::databoard4002

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <motionrack/cards/databoard4002/model/condition_reporter.hpp>
 #include <motionrack/cards/databoard4002/model/event_register.hpp>
+#include <motionrack/cards/databoard4002/model/output_stage.hpp>
 #include <motionrack/cards/databoard4002/model/pass_schedule.hpp>
 #include <motionrack/cards/databoard4002/model/pins.hpp>
 #include <motionrack/cards/databoard4002/model/position_counter.hpp>
@@ -47,7 +48,7 @@ class Card final : public sim::DeferringDevice,
 
     // ---- the machine side
     /// FOUT as a position over time: pulses since power-up, signed by SIGN.
-    sim::PositionFunction& pulses() { return train_; }
+    sim::PositionFunction& pulses() { return outputs_.train(); }
     /// The source that turns the encoder at O1 and O2, in counts of all edges (method 1: in counts); before the kernel
     /// starts. Without a source the card counts the wires o1 and o2.
     void connect_encoder(sim::PositionFunction& counts);
@@ -62,9 +63,9 @@ class Card final : public sim::DeferringDevice,
     bool locked() const { return positioner_.locked(); }
     bool hung() const { return watchdog_.hung(); }
     /// Rate at the output, negative backwards; 0 at standstill.
-    int output_rate() const { return state_.firmware.out_rate * positioner_.direction(); }
+    int output_rate() const { return outputs_.signed_rate(); }
     /// FOUT in Hz, 0 without pulses.
-    double fout_hz() const { return train_.running() ? hz_of(state_.firmware.out_rate) : 0; }
+    double fout_hz() const { return outputs_.fout_hz(); }
     std::uint8_t event_word() const { return events_.word(); }
     const SlopeTable& table() const { return positioner_.table(); }
     const Settings& settings() const { return settings_; }
@@ -75,7 +76,7 @@ class Card final : public sim::DeferringDevice,
     void on_wire(int pin, int level, Instant now) override;
     int level_at(int pin, Instant now) const override;
     void wanted_changed(int pin, bool wanted, Instant now) override;
-    void sync(Instant now) override { train_.hand_over(now); }
+    void sync(Instant now) override { outputs_.sync(now); }
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
     /// watchdog.hang; esl.broken, esr.broken, ems.broken, ref.broken: while not 0, the input's wire is broken, so the
     /// input is active.
@@ -102,12 +103,8 @@ class Card final : public sim::DeferringDevice,
     void open_answer(std::uint8_t code, Collecting collecting, std::int64_t value, int bytes);
     void enable_events(std::uint8_t value);
 
-    // hardware.cpp: wires, events, outputs
     void look_at_zero(Instant now);
-    bool gate_open() const;
-    void put_out(Instant now);
     void update_interrupt();
-    void show_fout(Instant now);
 
     void crossed(Instant now) override;
     void rate_changed(double before, double rate, Instant now) override;
@@ -126,7 +123,7 @@ class Card final : public sim::DeferringDevice,
     PositionCounter counter_;
     EventRegister events_;
     Positioner positioner_;
-    sim::PulseTrain train_;
+    OutputStage outputs_;
 };
 
 }  // namespace motionrack::databoard4002
