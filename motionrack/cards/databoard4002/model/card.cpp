@@ -15,7 +15,9 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
       counter_(kernel, state_.counter, state_.firmware.turn, settings_, conditions_, passes_, pins_),
       events_(state_.firmware.events, pins_),
       positioner_(state_.firmware.positioner, conditions_, passes_, pins_, counter_, events_),
-      outputs_(state_, settings_, positioner_, pins_) {
+      outputs_(state_, settings_, positioner_, pins_),
+      commands_(state_.firmware.collector, state_.firmware.latch, settings_, conditions_, counter_, events_,
+                positioner_, outputs_) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     outputs_.train().set_owner(this);
     kernel.schedule(id_, Instant{0});
@@ -152,6 +154,18 @@ void Card::update_interrupt() {
 
 // ---- ports
 
+void Card::work(Instant now) {
+    Firmware& f = state_.firmware;
+    const Work kind = f.access;
+    f.access = Work::none;
+    f.access_due = never;
+    f.ready = 1;
+    if (kind == Work::in_data) commands_.next_answer();
+    if (kind == Work::out_data) commands_.take_argument(f.access_value);
+    if (kind == Work::command) commands_.take_command(f.access_value, now);
+    if (kind == Work::enables) commands_.enable_events(f.access_value);
+}
+
 void Card::access(Work kind, std::uint8_t port, std::uint8_t value) {
     Firmware& f = state_.firmware;
     if (!f.ready) {
@@ -176,7 +190,7 @@ std::uint8_t Card::in(std::uint8_t port) {
 }
 
 std::uint8_t Card::peek(std::uint8_t port) const {
-    if (port == ports::DATA) return state_.firmware.latch;
+    if (port == ports::DATA) return commands_.latch();
     return port == ports::STAT ? status() : 0xFF;
 }
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <motionrack/cards/databoard4002/model/command_collector.hpp>
 #include <motionrack/cards/databoard4002/model/condition_reporter.hpp>
 #include <motionrack/cards/databoard4002/model/event_register.hpp>
 #include <motionrack/cards/databoard4002/model/output_stage.hpp>
@@ -93,16 +94,7 @@ class Card final : public sim::DeferringDevice,
 
     void pass(Instant now);
 
-    // commands.cpp: an access
     void work(Instant now);
-    void take_command(std::uint8_t code, Instant now);
-    void take_argument(std::uint8_t value);
-    void arguments_complete(std::uint8_t code);
-    void next_answer();
-    void open(std::uint8_t code, Collecting collecting);
-    void open_answer(std::uint8_t code, Collecting collecting, std::int64_t value, int bytes);
-    void enable_events(std::uint8_t value);
-
     void look_at_zero(Instant now);
     void update_interrupt();
 
@@ -124,6 +116,7 @@ class Card final : public sim::DeferringDevice,
     EventRegister events_;
     Positioner positioner_;
     OutputStage outputs_;
+    CommandCollector commands_;
 };
 
 }  // namespace motionrack::databoard4002

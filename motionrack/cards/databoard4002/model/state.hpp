@@ -22,6 +22,17 @@ enum class Work : std::uint8_t { none, in_data, out_data, command, enables };
 /// Meaning of the next access to DATA.
 enum class Collecting : std::uint8_t { idle, either, collecting, answering };
 
+struct CollectorState {
+    Collecting collecting = Collecting::idle;
+    std::uint8_t code = 0;         ///< the command whose arguments or answer are open
+    std::uint8_t answer_left = 0;  ///< bytes that still have to enter the latch
+    std::uint8_t reserved0 = 0;
+    std::int32_t collected = 0;  ///< argument bytes received
+    std::uint32_t argument = 0;
+    std::uint32_t answer = 0;  ///< remaining part of the answer
+    std::int32_t reserved1 = 0;
+};
+
 struct TargetMove {
     std::int64_t target = 0;  ///< -8,388,608 .. 8,388,607
     std::int64_t start = 0;   ///< start of the move by the counter
@@ -53,14 +64,7 @@ struct Firmware {
     Work access = Work::none;
     std::uint8_t access_value = 0;
     std::uint8_t latch = 0;  ///< value that INP DATA returns
-    Collecting collecting = Collecting::idle;
-    std::uint8_t collector = 0;    ///< the command whose arguments or answer are open
-    std::uint8_t answer_left = 0;  ///< bytes that still have to enter the latch
-    std::uint8_t reserved0 = 0;
-    std::int32_t collected = 0;  ///< argument bytes received
-    std::uint32_t argument = 0;
-    std::uint32_t answer = 0;  ///< remaining part of the answer
-    std::int32_t reserved1 = 0;
+    CollectorState collector;
     Instant access_due = never;
     PositionerState positioner;
     EventState events;
