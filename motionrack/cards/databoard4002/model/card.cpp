@@ -16,8 +16,9 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
       events_(state_.firmware.events, pins_),
       positioner_(state_.firmware.positioner, conditions_, passes_, pins_, counter_, events_),
       outputs_(state_, settings_, positioner_, pins_),
-      commands_(state_.firmware.collector, state_.firmware.latch, settings_, conditions_, counter_, events_,
-                positioner_, outputs_) {
+      commands_(state_.firmware.ports.collector, state_.firmware.ports.latch, settings_, conditions_, counter_, events_,
+                positioner_, outputs_),
+      ports_(state_.firmware.ports, settings_.byte_time, conditions_, passes_, pins_, events_, commands_) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     outputs_.train().set_owner(this);
     kernel.schedule(id_, Instant{0});
@@ -111,16 +112,15 @@ void Card::wanted_changed(int, bool wanted, Instant now) {
 
 /// Updates the state once, as the loop of the firmware does.
 void Card::pass(Instant now) {
-    Firmware& f = state_.firmware;
     passes_.clear();
-    if (f.access_due <= now) work(now);
+    ports_.work(now);
     if (events_.note_stops() & stat::EMS) positioner_.abort(now);
     positioner_.check_position(now);
     counter_.note_turn(now);
     outputs_.set_rate(positioner_.output_rate(now));
     outputs_.update(now);
-    update_interrupt();
-    if (f.access != Work::none) passes_.request_at(f.access_due);
+    ports_.update_interrupt();
+    ports_.request_pass();
     positioner_.aim(now);
 }
 
@@ -133,7 +133,7 @@ void Card::reset() {
     events_.take_stops();
     events_.subscribe_zero();
     outputs_.update(now);
-    update_interrupt();
+    ports_.update_interrupt();
     passes_.restart(now);
     reschedule();
 }
@@ -144,41 +144,14 @@ void Card::look_at_zero(Instant now) {
     if (settings_.zeroing) positioner_.zero(now);
     events_.raise(seen);
     events_.subscribe_zero();
-    update_interrupt();
+    ports_.update_interrupt();
     passes_.request(now);
-}
-
-void Card::update_interrupt() {
-    events_.update_interrupt(state_.firmware.ready != 0);
 }
 
 // ---- ports
 
-void Card::work(Instant now) {
-    Firmware& f = state_.firmware;
-    const Work kind = f.access;
-    f.access = Work::none;
-    f.access_due = never;
-    f.ready = 1;
-    if (kind == Work::in_data) commands_.next_answer();
-    if (kind == Work::out_data) commands_.take_argument(f.access_value);
-    if (kind == Work::command) commands_.take_command(f.access_value, now);
-    if (kind == Work::enables) commands_.enable_events(f.access_value);
-}
-
 void Card::access(Work kind, std::uint8_t port, std::uint8_t value) {
-    Firmware& f = state_.firmware;
-    if (!f.ready) {
-        conditions_.report(CardCondition::access_lost, port, kind == Work::in_data ? -1 : value);
-        return;
-    }
-    f.ready = 0;
-    f.access = kind;
-    f.access_value = value;
-    f.access_due = passes_.first_from(kernel_.now() + settings_.byte_time);
-    passes_.request_at(f.access_due);
-    update_interrupt();
-    reschedule();
+    if (ports_.access(kind, port, value, kernel_.now())) reschedule();
 }
 
 std::uint8_t Card::in(std::uint8_t port) {
@@ -190,8 +163,7 @@ std::uint8_t Card::in(std::uint8_t port) {
 }
 
 std::uint8_t Card::peek(std::uint8_t port) const {
-    if (port == ports::DATA) return commands_.latch();
-    return port == ports::STAT ? status() : 0xFF;
+    return ports_.value(port);
 }
 
 void Card::out(std::uint8_t port, std::uint8_t value) {
@@ -209,15 +181,6 @@ void Card::out(std::uint8_t port, std::uint8_t value) {
         default:
             return;
     }
-}
-
-std::uint8_t Card::status() const {
-    const Firmware& f = state_.firmware;
-    unsigned out = pins_.inputs();
-    if (f.ready) out |= stat::READY;
-    if (events_.pending()) out |= stat::EVENT;
-    if (pins_.level(interrupt_pin) != 0) out |= stat::INT;
-    return static_cast<std::uint8_t>(out);
 }
 
 // ---- faults

@@ -15,6 +15,7 @@
 #include <motionrack/cards/databoard4002/model/command_collector.hpp>
 #include <motionrack/cards/databoard4002/model/condition_reporter.hpp>
 #include <motionrack/cards/databoard4002/model/event_register.hpp>
+#include <motionrack/cards/databoard4002/model/host_ports.hpp>
 #include <motionrack/cards/databoard4002/model/output_stage.hpp>
 #include <motionrack/cards/databoard4002/model/pass_schedule.hpp>
 #include <motionrack/cards/databoard4002/model/pins.hpp>
@@ -85,19 +86,12 @@ class Card final : public sim::DeferringDevice,
     static std::span<const std::string_view> fault_names();
 
   private:
-    // card.cpp: time and ports
     void reschedule();
     void begin();
-    void access(Work kind, std::uint8_t port, std::uint8_t value);
-    std::uint8_t status() const;
     void reset();
-
     void pass(Instant now);
-
-    void work(Instant now);
+    void access(Work kind, std::uint8_t port, std::uint8_t value);
     void look_at_zero(Instant now);
-    void update_interrupt();
-
     void crossed(Instant now) override;
     void rate_changed(double before, double rate, Instant now) override;
 
@@ -117,6 +111,7 @@ class Card final : public sim::DeferringDevice,
     Positioner positioner_;
     OutputStage outputs_;
     CommandCollector commands_;
+    HostPorts ports_;
 };
 
 }  // namespace motionrack::databoard4002

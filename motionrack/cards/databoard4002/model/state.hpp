@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <motionrack/base/time.hpp>
 #include <motionrack/cards/databoard4002/map.hpp>
@@ -33,6 +34,15 @@ struct CollectorState {
     std::int32_t reserved1 = 0;
 };
 
+struct HostPortsState {
+    std::uint8_t ready = 1;
+    Work access = Work::none;
+    std::uint8_t access_value = 0;
+    std::uint8_t latch = 0;  ///< value that INP DATA returns
+    CollectorState collector;
+    Instant access_due = never;
+};
+
 struct TargetMove {
     std::int64_t target = 0;  ///< -8,388,608 .. 8,388,607
     std::int64_t start = 0;   ///< start of the move by the counter
@@ -59,13 +69,7 @@ struct EventState {
 
 /// The part of the state that a reset clears.
 struct Firmware {
-    // handshake and collector
-    std::uint8_t ready = 1;
-    Work access = Work::none;
-    std::uint8_t access_value = 0;
-    std::uint8_t latch = 0;  ///< value that INP DATA returns
-    CollectorState collector;
-    Instant access_due = never;
+    HostPortsState ports;
     PositionerState positioner;
     EventState events;
     // outputs of the last pass
@@ -107,6 +111,9 @@ struct State {
     std::uint32_t reserved = 0;
 };
 
+static_assert(sizeof(HostPortsState) == 32 && offsetof(Firmware, positioner) == 32 &&
+                  offsetof(Firmware, events) == 576 && offsetof(Firmware, turn) == 592 && sizeof(Firmware) == 600,
+              "another layout would change the state's hash");
 static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
 
 }  // namespace motionrack::databoard4002
