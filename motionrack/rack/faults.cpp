@@ -38,9 +38,9 @@ bool has_part(const RunningAxis& axis, std::string_view fault) {
     const std::string_view part = fault.substr(0, fault.find('.'));
     if (of_lines(fault)) return axis.lines != nullptr;
     if (part == "encoder") return machine.has_encoder();
-    if (part == "limit_minus") return machine.limit_minus().present();
-    if (part == "limit_plus") return machine.limit_plus().present();
-    if (part == "home") return machine.home().present();
+    if (part == "limit_minus") return machine.switches().limit_minus().present();
+    if (part == "limit_plus") return machine.switches().limit_plus().present();
+    if (part == "home") return machine.switches().home().present();
     const auto knows = [fault](std::span<const std::string_view> names) {
         return std::find(names.begin(), names.end(), fault) != names.end();
     };

@@ -12,7 +12,6 @@ constexpr int index_pin = 0;
 constexpr double ramp_step = 0.125;
 /// Bounds the time to step loss for a rate almost equal to that of the rotor.
 constexpr double max_strain_s = 1e6;
-constexpr std::array<std::string_view, 3> switch_names = {"limit_minus", "limit_plus", "home"};
 constexpr std::array<std::string_view, 12> axis_machine_faults = {"motor.stall",
                                                                   "motor.lose_steps",
                                                                   "motor.push",
@@ -35,18 +34,13 @@ std::int64_t whole(double value) {
 AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const AxisMechanicsSettings& settings)
     : kernel_(kernel),
       settings_(settings),
+      id_(kernel.add(*this, sim::Phase::parts, name)),
       motor_(settings.motor, state_.motor),
       axle_(settings.axle, settings.motor.pulses_per_rev(), state_.axle),
       encoder_(settings.encoder, settings.motor.pulses_per_rev(), state_.encoder),
-      switches_{LimitSwitch(settings.limit_minus, axle_, state_.switches[0]),
-                LimitSwitch(settings.limit_plus, axle_, state_.switches[1]),
-                LimitSwitch(settings.home, axle_, state_.switches[2])},
+      switches_(kernel, name, {settings.limit_minus, settings.limit_plus, settings.home}, axle_, state_.switches),
       faces_{MechanicsPosition(*this, rotor_face), MechanicsPosition(*this, encoder_face)},
       edge_generator_(std::make_unique<EdgeGenerator>(state_.last_edge)) {
-    id_ = kernel_.add(*this, sim::Phase::parts, name);
-    for (std::size_t i = 0; i < switches_.size(); ++i)
-        if (switches_[i].present())
-            switch_wire_[i] = kernel_.add_wire(name + '.' + std::string(switch_names[i]), switches_[i].level());
     if (!encoder_.present()) return;
     index_wire_ = kernel_.add_wire(name + ".enc_z", encoder_.index(0));
     kernel_.drive_lazily(index_wire_, id_, index_pin);
@@ -207,20 +201,11 @@ void AxisMechanics::check(Instant now) {
     if (checking_) return;
     checking_ = true;
     const std::int64_t rotor = rotor_at(now);
-    check_switches(rotor, now);
+    switches_.check(rotor, now);
     if (state_.index_wanted && state_.index.left(rotor)) check_index(rotor);
     check_faces(rotor, now);
     checking_ = false;
     aim(now);
-}
-
-void AxisMechanics::check_switches(std::int64_t rotor, Instant now) {
-    const std::int64_t table = axle_.table(rotor);
-    for (std::size_t i = 0; i < switches_.size(); ++i) {
-        if (!switches_[i].range().left(table)) continue;
-        switches_[i].move(table, now);
-        kernel_.set_wire(switch_wire_[i], switches_[i].level());
-    }
 }
 
 void AxisMechanics::check_index(std::int64_t rotor) {
@@ -260,7 +245,7 @@ void AxisMechanics::aim(Instant now) {
         else
             all = all.within(range);
     };
-    for (const LimitSwitch& s : switches_) add(axle_.rotor_range(s.range()));
+    switches_.add_ranges(add);
     if (state_.index_wanted) add(state_.index);
     for (int face = 0; face < face_count; ++face)
         for (int i = 0; i < listeners_[face].size(); ++i) add(state_.watches[face][i].rotor);
@@ -274,17 +259,11 @@ void AxisMechanics::aim(Instant now) {
 
 // Schedules the next event that needs no pulse.
 void AxisMechanics::put_off() {
-    Instant next = std::min(state_.pending, state_.strain.deadline);
-    for (const LimitSwitch& s : switches_) next = std::min(next, s.next());
-    kernel_.schedule(id_, next);
+    kernel_.schedule(id_, std::min({state_.pending, state_.strain.deadline, switches_.next()}));
 }
 
 void AxisMechanics::on_scheduled(Instant now) {
-    for (std::size_t i = 0; i < switches_.size(); ++i) {
-        if (switches_[i].next() > now) continue;
-        switches_[i].act(now);
-        kernel_.set_wire(switch_wire_[i], switches_[i].level());
-    }
+    switches_.act(now);
     if (state_.strain.deadline <= now) give_way(now);
     if (state_.pending <= now) {
         state_.pending = never;
@@ -302,9 +281,7 @@ bool AxisMechanics::fault(std::string_view name, double value, Instant now) {
     const std::string_view what = name.substr(dot + 1);
     if (part == "motor") return motor_fault(what, value, now);
     if (part == "encoder") return encoder_fault(what, value, now);
-    for (std::size_t i = 0; i < switch_names.size(); ++i)
-        if (part == switch_names[i]) return switch_fault(static_cast<int>(i), what, value);
-    return false;
+    return switches_.fault(part, what, value);
 }
 
 bool AxisMechanics::motor_fault(std::string_view name, double value, Instant now) {
@@ -342,18 +319,6 @@ bool AxisMechanics::encoder_fault(std::string_view name, double value, Instant n
     }
     aim(now);
     notify_rate(motor_.rotor_rate(state_.motor.rate_hz), now);
-    return true;
-}
-
-bool AxisMechanics::switch_fault(int i, std::string_view name, double value) {
-    const auto at = static_cast<std::size_t>(i);
-    const SwitchFault fault = name == "stuck_open"     ? SwitchFault::stuck_open
-                              : name == "stuck_closed" ? SwitchFault::stuck_closed
-                                                       : SwitchFault::none;
-    if (fault == SwitchFault::none || !switches_[at].present()) return false;
-    if (value == 0 && state_.switches[at].fault != fault) return true;
-    switches_[at].set_fault(value != 0 ? fault : SwitchFault::none);
-    kernel_.set_wire(switch_wire_[at], switches_[at].level());
     return true;
 }
 

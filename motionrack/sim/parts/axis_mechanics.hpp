@@ -13,9 +13,9 @@
 #include <memory>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/listeners.hpp>
+#include <motionrack/sim/parts/axis_switches.hpp>
 #include <motionrack/sim/parts/conditions.hpp>
 #include <motionrack/sim/parts/encoder.hpp>
-#include <motionrack/sim/parts/limit_switch.hpp>
 #include <motionrack/sim/parts/stepper.hpp>
 #include <motionrack/sim/parts/transmission.hpp>
 #include <motionrack/sim/position_function.hpp>
@@ -74,15 +74,13 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     double units_per_pulse() const { return axle_.units_per_pulse(); }
 
     /// Wires of the machine; WireId::none if the part is absent.
-    sim::WireId limit_minus_wire() const { return switch_wire_[0]; }
-    sim::WireId limit_plus_wire() const { return switch_wire_[1]; }
-    sim::WireId home_wire() const { return switch_wire_[2]; }
+    sim::WireId limit_minus_wire() const { return switches_.wire(0); }
+    sim::WireId limit_plus_wire() const { return switches_.wire(1); }
+    sim::WireId home_wire() const { return switches_.wire(2); }
     sim::WireId index_wire() const { return index_wire_; }
     sim::DeviceId id() const { return id_; }
     const AxisMechanicsSettings& settings() const { return settings_; }
-    const LimitSwitch& limit_minus() const { return switches_[0]; }
-    const LimitSwitch& limit_plus() const { return switches_[1]; }
-    const LimitSwitch& home() const { return switches_[2]; }
+    const AxisSwitches& switches() const { return switches_; }
 
     /// Faults that fault() accepts:
     ///   motor.stall            the axle is blocked while not 0
@@ -99,7 +97,6 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     bool fault(std::string_view name, double value, Instant now) override;
 
   private:
-    static constexpr int switch_count = 3;
     static constexpr int slots = sim::PositionFunction::max_listeners;
     enum MechanicsAdapter : int { rotor_face, encoder_face, face_count };
 
@@ -139,7 +136,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
         Strain strain;
         TransmissionState axle;
         EncoderState encoder;
-        std::array<LimitSwitchState, switch_count> switches;
+        AxisSwitches::States switches;
         std::array<std::array<Watch, slots>, face_count> watches;
         Range index;  // rotor range of a constant index line, while subscribed
         Range aimed;  // watched range of the pulses
@@ -170,7 +167,6 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     void check(Instant now);
     void check_faces(std::int64_t rotor, Instant now);
     void check_index(std::int64_t rotor);
-    void check_switches(std::int64_t rotor, Instant now);
     bool check_ends(Instant now);
     void aim(Instant now);
     void put_off();
@@ -180,19 +176,17 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     void notify_rate(double before, Instant now);
     bool motor_fault(std::string_view name, double value, Instant now);
     bool encoder_fault(std::string_view name, double value, Instant now);
-    bool switch_fault(int i, std::string_view name, double value);
 
     class EdgeGenerator;
 
     sim::Kernel& kernel_;
     AxisMechanicsSettings settings_;
-    sim::DeviceId id_{};
     State state_{};
+    sim::DeviceId id_;
     Stepper motor_;
     Transmission axle_;
     Encoder encoder_;
-    std::array<LimitSwitch, switch_count> switches_;
-    std::array<sim::WireId, switch_count> switch_wire_{sim::WireId::none, sim::WireId::none, sim::WireId::none};
+    AxisSwitches switches_;
     sim::WireId index_wire_ = sim::WireId::none;
     sim::PositionFunction* pulses_ = nullptr;
     int slot_ = 0;

@@ -188,7 +188,7 @@ RC_GTEST_PROP(AxisMechanics, ASwitchTogglesExactlyWhereThePositionPassesItsPosit
     s.limit_plus.bounce = Duration{0};
     MachineWorld w(s, {{Instant{0}, microseconds(100), +1}});
     w.kernel.start();
-    const std::int64_t pulse = w.machine.limit_plus().acts_at();
+    const std::int64_t pulse = w.machine.switches().limit_plus().acts_at();
     w.run(microseconds(100) * pulse - Duration{1});
     RC_ASSERT(w.machine.position(w.kernel.now()) < *s.limit_plus.position);
     RC_ASSERT(w.kernel.level(w.machine.limit_plus_wire()) == 1);
