@@ -1,5 +1,4 @@
 // Crossings, rates and faults of one axis; axis_mechanics_adapters.cpp has the outputs to listeners.
-#include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/axis_mechanics.hpp>
 #include <motionrack/sim/parts/edge_generator.hpp>
 
@@ -29,6 +28,18 @@ std::int64_t whole(double value) {
     return static_cast<std::int64_t>(value + (value < 0 ? -0.5 : 0.5));
 }
 
+/// Reports the effects of a change of the motor.
+template <class Report>
+void report_change(const StepperState& before, const StepperState& after, std::int64_t rotor_before, std::int64_t rotor,
+                   Report report) {
+    const bool in_step = after.hold == RotorHold::in_step;
+    const bool new_rate = before.rate_hz != after.rate_hz;
+    if (after.jammed && !before.jammed) report(AxisCondition::axle_held, rotor_before, 0);
+    if (before.hold == RotorHold::in_step && new_rate && (!in_step || rotor != rotor_before))
+        report(AxisCondition::fell_out_of_step, whole(before.rate_hz), whole(after.rate_hz));
+    if (in_step && after.lost != before.lost) report(AxisCondition::lost_steps, after.lost - before.lost, after.lost);
+}
+
 }  // namespace
 
 AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const AxisMechanicsSettings& settings)
@@ -36,6 +47,7 @@ AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const
       settings_(settings),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       motor_(settings.motor, state_.motor),
+      input_(motor_, state_.motor, state_.aimed),
       axle_(settings.axle, settings.motor.pulses_per_rev(), state_.axle),
       encoder_(settings.encoder, settings.motor.pulses_per_rev(), state_.encoder),
       switches_(kernel, name, {settings.limit_minus, settings.limit_plus, settings.home}, axle_, state_.switches),
@@ -49,9 +61,7 @@ AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const
 AxisMechanics::~AxisMechanics() = default;
 
 void AxisMechanics::connect(sim::PositionFunction& pulses) {
-    MOTIONRACK_ASSERT(pulses_ == nullptr);
-    pulses_ = &pulses;
-    slot_ = pulses.add_listener(*this);
+    input_.connect(pulses, *this);
     aim(kernel_.now());
 }
 
@@ -74,11 +84,11 @@ void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now)
     if (motor_.in_step() && jump > motor_.settings().start_stop_hz) return strain(rate, now);
     state_.strain.deadline = never;
     if (!motor_.in_step() || std::fabs(rate) > motor_.settings().pull_out_hz) {
-        change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
+        change_motor(now, [&] { motor_.change_rate(rate, input_.pulses_at(now)); });
         return;
     }
     const double before = state_.motor.rate_hz;
-    if (axle_.play() != 0 && (rate > 0) - (rate < 0) != (before > 0) - (before < 0)) axle_.turn(rotor_at(now));
+    if (axle_.play() != 0 && (rate > 0) - (rate < 0) != (before > 0) - (before < 0)) axle_.turn(input_.rotor_at(now));
     motor_.note_rate(rate);
     const double velocity = std::fabs(rate);
     if (velocity > state_.top_hz) state_.top_hz = velocity;
@@ -100,10 +110,10 @@ void AxisMechanics::strain(double rate, Instant now) {
     if (s.deadline == never) {
         s.rate_hz = s.steady_hz;
         s.since = now;
-        s.pulses = pulses_at(now);
+        s.pulses = input_.pulses_at(now);
     }
     const double full_step = static_cast<double>(motor_.settings().microsteps);
-    const double away = static_cast<double>(pulses_at(now) - s.pulses) - s.rate_hz * to_seconds(now - s.since);
+    const double away = static_cast<double>(input_.pulses_at(now) - s.pulses) - s.rate_hz * to_seconds(now - s.since);
     const double margin = full_step - std::fabs(away), apart = std::fabs(rate - s.rate_hz);
     if (margin > 0 && apart == 0) {  // the pulses have returned to the rotor's rate before a step loss
         s.deadline = never;
@@ -122,16 +132,17 @@ void AxisMechanics::strain(double rate, Instant now) {
 void AxisMechanics::give_way(Instant now) {
     Strain& s = state_.strain;
     s.deadline = never;
-    const double mean = static_cast<double>(pulses_at(now) - s.pulses) / std::max(1e-9, to_seconds(now - s.since));
+    const double mean =
+        static_cast<double>(input_.pulses_at(now) - s.pulses) / std::max(1e-9, to_seconds(now - s.since));
     if (std::fabs(mean - s.rate_hz) <= motor_.settings().start_stop_hz) {
         s.steady_hz = mean;
         s.steady_at = now;
         return;
     }
-    pulses_->deliver_edges();  // the pulses before the step loss still move the rotor
+    input_.deliver_edges();  // the pulses before the step loss still move the rotor
     const double rate = state_.motor.rate_hz;
     motor_.note_rate(s.rate_hz);
-    change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
+    change_motor(now, [&] { motor_.change_rate(rate, input_.pulses_at(now)); });
     s.steady_hz = rate;
     s.steady_at = now;
 }
@@ -145,7 +156,7 @@ void AxisMechanics::notify_rate(double before, Instant now) {
 }
 
 void AxisMechanics::crossed(Instant now) {
-    state_.aimed = {1, -1};  // a notified watch is cleared
+    input_.note_crossed();
     if (check_ends(now)) return;
     check(now);
 }
@@ -154,7 +165,7 @@ void AxisMechanics::crossed(Instant now) {
 
 template <class Change>
 void AxisMechanics::change_motor(Instant now, Change change) {
-    const std::int64_t pulses = pulses_at(now);
+    const std::int64_t pulses = input_.pulses_at(now);
     const StepperState before = state_.motor;
     const std::int64_t rotor_before = motor_.rotor(pulses);
     axle_.turn(rotor_before);
@@ -162,7 +173,9 @@ void AxisMechanics::change_motor(Instant now, Change change) {
     const std::int64_t rotor = motor_.rotor(pulses);
     axle_.turn(rotor);
     const bool jumped = rotor != rotor_before;
-    report_change(before, rotor_before, rotor);
+    report_change(before, state_.motor, rotor_before, rotor, [&](AxisCondition code, std::int64_t a, std::int64_t b) {
+        kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
+    });
     if (jumped && (edge_listeners_[rotor_face] || edge_listeners_[encoder_face])) {
         edge_generator_->jump(encoder_, edge_listeners_, now, state_.edges_until, rotor);
         state_.edges_until = rotor;
@@ -172,26 +185,13 @@ void AxisMechanics::change_motor(Instant now, Change change) {
     if (motor_.rotor_rate(state_.motor.rate_hz) != reported) notify_rate(reported, now);
 }
 
-void AxisMechanics::report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor) {
-    const StepperState& after = state_.motor;
-    auto report = [&](AxisCondition code, std::int64_t a, std::int64_t b) {
-        kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
-    };
-    const bool new_rate = before.rate_hz != after.rate_hz;
-    if (after.jammed && !before.jammed) report(AxisCondition::axle_held, rotor_before, 0);
-    if (before.hold == RotorHold::in_step && new_rate && (!motor_.in_step() || rotor != rotor_before))
-        report(AxisCondition::fell_out_of_step, whole(before.rate_hz), whole(after.rate_hz));
-    if (motor_.in_step() && after.lost != before.lost)
-        report(AxisCondition::lost_steps, after.lost - before.lost, after.lost);
-}
-
 bool AxisMechanics::check_ends(Instant now) {
-    const std::int64_t rotor = rotor_at(now);
+    const std::int64_t rotor = input_.rotor_at(now);
     if (!axle_.travel().left(rotor)) return false;
     const int direction = rotor >= axle_.travel().above ? 1 : -1;
     const std::int64_t end = direction > 0 ? axle_.travel().above - 1 : axle_.travel().below + 1;
     kernel_.report(id_, static_cast<std::uint16_t>(AxisCondition::end_of_travel), direction, end);
-    change_motor(now, [&] { motor_.block(direction, end, pulses_at(now)); });
+    change_motor(now, [&] { motor_.block(direction, end, input_.pulses_at(now)); });
     return true;
 }
 
@@ -200,7 +200,7 @@ bool AxisMechanics::check_ends(Instant now) {
 void AxisMechanics::check(Instant now) {
     if (checking_) return;
     checking_ = true;
-    const std::int64_t rotor = rotor_at(now);
+    const std::int64_t rotor = input_.rotor_at(now);
     switches_.check(rotor, now);
     if (state_.index_wanted && state_.index.left(rotor)) check_index(rotor);
     check_faces(rotor, now);
@@ -236,7 +236,7 @@ void AxisMechanics::check_faces(std::int64_t rotor, Instant now) {
 // Watches the nearest position of any event.
 void AxisMechanics::aim(Instant now) {
     if (checking_) return;
-    const std::int64_t rotor = rotor_at(now);
+    const std::int64_t rotor = input_.rotor_at(now);
     Range all = axle_.travel();
     bool left = all.left(rotor);
     auto add = [&](const Range& range) {
@@ -251,10 +251,7 @@ void AxisMechanics::aim(Instant now) {
         for (int i = 0; i < listeners_[face].size(); ++i) add(state_.watches[face][i].rotor);
     state_.pending = left ? now + Duration{1} : never;
     put_off();
-    all = motor_.in_step() ? all.moved(state_.motor.lost) : Range{};
-    if (!pulses_ || all == state_.aimed) return;
-    state_.aimed = all;
-    pulses_->watch(slot_, all.below, all.above);
+    input_.watch(all);
 }
 
 // Schedules the next event that needs no pulse.
@@ -288,12 +285,12 @@ bool AxisMechanics::motor_fault(std::string_view name, double value, Instant now
     constexpr double max_microsteps = 1e12;
     if (!(std::fabs(value) <= max_microsteps)) return false;
     if (name == "stall") {
-        change_motor(now, [&] { motor_.jam(value != 0, pulses_at(now)); });
+        change_motor(now, [&] { motor_.jam(value != 0, input_.pulses_at(now)); });
     } else if (name == "lose_steps") {
         const double back = state_.motor.rate_hz < 0 ? value : -value;
-        change_motor(now, [&] { motor_.push(whole(back), pulses_at(now)); });
+        change_motor(now, [&] { motor_.push(whole(back), input_.pulses_at(now)); });
     } else if (name == "push") {
-        change_motor(now, [&] { motor_.push(whole(value), pulses_at(now)); });
+        change_motor(now, [&] { motor_.push(whole(value), input_.pulses_at(now)); });
     } else {
         return false;
     }
@@ -308,7 +305,7 @@ bool AxisMechanics::encoder_fault(std::string_view name, double value, Instant n
                                                  : LineFault::none;
     if (fault == LineFault::none || !encoder_.present()) return false;
     if (value == 0 && encoder_.fault() != fault) return true;
-    const std::int64_t rotor = rotor_at(now);
+    const std::int64_t rotor = input_.rotor_at(now);
     const std::int64_t before = encoder_.count(rotor);
     encoder_.set_fault(value != 0 ? fault : LineFault::none, rotor);
     if (edge_listeners_[encoder_face])

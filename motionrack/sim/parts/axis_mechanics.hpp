@@ -16,6 +16,7 @@
 #include <motionrack/sim/parts/axis_switches.hpp>
 #include <motionrack/sim/parts/conditions.hpp>
 #include <motionrack/sim/parts/encoder.hpp>
+#include <motionrack/sim/parts/pulse_input.hpp>
 #include <motionrack/sim/parts/stepper.hpp>
 #include <motionrack/sim/parts/transmission.hpp>
 #include <motionrack/sim/position_function.hpp>
@@ -56,17 +57,17 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     sim::PositionFunction& encoder();
     bool has_encoder() const { return encoder_.present(); }
     /// The lines A and B at `t`.
-    QuadratureLevels encoder_lines(Instant t) const { return encoder_.lines(rotor_at(t)); }
+    QuadratureLevels encoder_lines(Instant t) const { return encoder_.lines(input_.rotor_at(t)); }
     /// Sets the listener for the edges of the pulses. The pulses have only one edge listener, which is this machine if
     /// it generates edges.
     void listen_pulse_edges(sim::EdgeListener* listener);
 
     /// True position of the table at `t` (not before the last event, not after the present), mm or degrees.
-    double position(Instant t) const { return axle_.position(rotor_at(t)); }
+    double position(Instant t) const { return axle_.position(input_.rotor_at(t)); }
     /// True velocity of the table by the present law, mm/s or degrees/s, signed.
     double velocity() const { return motor_.rotor_rate(state_.motor.rate_hz) * axle_.units_per_pulse(); }
     /// Pulses - rotor at `t`: 0 without step loss; a multiple of 4 full steps while in step.
-    std::int64_t lost_steps(Instant t) const { return pulses_at(t) - rotor_at(t); }
+    std::int64_t lost_steps(Instant t) const { return input_.pulses_at(t) - input_.rotor_at(t); }
     std::int64_t lost_steps() const { return lost_steps(kernel_.now()); }
     bool in_step() const { return motor_.in_step(); }
     /// Highest velocity so far with the motor in step, mm/s or degrees/s.
@@ -110,7 +111,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
         }
         int add_listener(sim::PositionListener& listener) override { return machine_.add_listener(face_, listener); }
         void set_edge_listener(sim::EdgeListener* listener) override { machine_.set_edge_listener(face_, listener); }
-        void deliver_edges() override { machine_.pulses_->deliver_edges(); }
+        void deliver_edges() override { machine_.input_.deliver_edges(); }
 
       private:
         AxisMechanics& machine_;
@@ -152,8 +153,6 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     void rate_changed(double before, double rate, Instant now) override;
     void edges(const sim::EdgeBatch& batch) override;
 
-    std::int64_t pulses_at(Instant t) const { return pulses_ ? pulses_->count(t) : 0; }
-    std::int64_t rotor_at(Instant t) const { return motor_.rotor(pulses_at(t)); }
     std::int64_t face_count_at(MechanicsAdapter face, Instant t) const;
     double face_rate(MechanicsAdapter face, Instant t) const;
     void watch(MechanicsAdapter face, int slot, Range counts);
@@ -163,7 +162,6 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     /// Runs `change` of the motor, which may move the rotor or cause a step loss, and updates all dependent state.
     template <class Change>
     void change_motor(Instant now, Change change);
-    void report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor);
     void check(Instant now);
     void check_faces(std::int64_t rotor, Instant now);
     void check_index(std::int64_t rotor);
@@ -184,12 +182,11 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     State state_{};
     sim::DeviceId id_;
     Stepper motor_;
+    PulseInput input_;
     Transmission axle_;
     Encoder encoder_;
     AxisSwitches switches_;
     sim::WireId index_wire_ = sim::WireId::none;
-    sim::PositionFunction* pulses_ = nullptr;
-    int slot_ = 0;
     std::array<MechanicsPosition, face_count> faces_;
     std::array<sim::Listeners, face_count> listeners_;
     std::array<sim::EdgeListener*, face_count> edge_listeners_{};

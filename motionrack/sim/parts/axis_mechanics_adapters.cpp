@@ -12,12 +12,12 @@ sim::PositionFunction& AxisMechanics::encoder() {
     return faces_[encoder_face];
 }
 std::int64_t AxisMechanics::face_count_at(MechanicsAdapter face, Instant t) const {
-    if (face == rotor_face) return rotor_at(t);
-    return encoder_.present() ? encoder_.count(rotor_at(t)) : 0;
+    if (face == rotor_face) return input_.rotor_at(t);
+    return encoder_.present() ? encoder_.count(input_.rotor_at(t)) : 0;
 }
 
 double AxisMechanics::face_rate(MechanicsAdapter face, Instant t) const {
-    const double rotor = pulses_ ? motor_.rotor_rate(pulses_->rate(t)) : 0;
+    const double rotor = input_.rotor_rate_at(t);
     if (face == rotor_face) return rotor;
     return encoder_.present() ? encoder_.rate(rotor) : 0;
 }
@@ -34,18 +34,18 @@ void AxisMechanics::watch(MechanicsAdapter face, int slot, Range counts) {
     if (face == rotor_face)
         w.rotor = counts;
     else
-        w.rotor = encoder_.present() ? encoder_.rotor_range(counts, rotor_at(now)) : Range{};
+        w.rotor = encoder_.present() ? encoder_.rotor_range(counts, input_.rotor_at(now)) : Range{};
     aim(now);
 }
 
 // ---- The index wire
 
 int AxisMechanics::level_at(int, Instant now) const {
-    return encoder_.index(rotor_at(now));
+    return encoder_.index(input_.rotor_at(now));
 }
 
 void AxisMechanics::wanted_changed(int, bool wanted, Instant now) {
-    const std::int64_t rotor = rotor_at(now);
+    const std::int64_t rotor = input_.rotor_at(now);
     state_.index_wanted = wanted;
     state_.index_level = encoder_.index(rotor);
     state_.index = wanted ? encoder_.index_range(rotor) : Range{};
@@ -55,19 +55,18 @@ void AxisMechanics::wanted_changed(int, bool wanted, Instant now) {
 // ---- Edges
 
 void AxisMechanics::set_edge_listener(MechanicsAdapter face, sim::EdgeListener* listener) {
-    MOTIONRACK_ASSERT(pulses_ != nullptr);
+    MOTIONRACK_ASSERT(input_.connected());
     const bool before = edge_listeners_[rotor_face] || edge_listeners_[encoder_face];
     edge_listeners_[face] = face == encoder_face && !encoder_.present() ? nullptr : listener;
     const bool after = edge_listeners_[rotor_face] || edge_listeners_[encoder_face];
-    if (after && !before) state_.edges_until = rotor_at(kernel_.now());
-    pulses_->set_edge_listener(after || pulse_edges_ ? this : nullptr);
+    if (after && !before) state_.edges_until = input_.rotor_at(kernel_.now());
+    input_.set_edge_listener(after || pulse_edges_ ? this : nullptr);
 }
 
 void AxisMechanics::listen_pulse_edges(sim::EdgeListener* listener) {
-    MOTIONRACK_ASSERT(pulses_ != nullptr);
     pulse_edges_ = listener;
-    pulses_->set_edge_listener(pulse_edges_ || edge_listeners_[rotor_face] || edge_listeners_[encoder_face] ? this
-                                                                                                            : nullptr);
+    input_.set_edge_listener(pulse_edges_ || edge_listeners_[rotor_face] || edge_listeners_[encoder_face] ? this
+                                                                                                          : nullptr);
 }
 
 void AxisMechanics::edges(const sim::EdgeBatch& batch) {
