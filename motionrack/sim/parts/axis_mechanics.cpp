@@ -7,10 +7,6 @@ namespace motionrack::parts {
 namespace {
 
 constexpr int index_pin = 0;
-/// Part of start_stop_hz: smaller rate changes are steps of a ramp.
-constexpr double ramp_step = 0.125;
-/// Bounds the time to step loss for a rate almost equal to that of the rotor.
-constexpr double max_strain_s = 1e6;
 constexpr std::array<std::string_view, 12> axis_machine_faults = {"motor.stall",
                                                                   "motor.lose_steps",
                                                                   "motor.push",
@@ -48,6 +44,7 @@ AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const
       id_(kernel.add(*this, sim::Phase::parts, name)),
       motor_(settings.motor, state_.motor),
       input_(motor_, state_.motor, state_.aimed),
+      strain_(state_.strain, motor_, state_.motor),
       axle_(settings.axle, settings.motor.pulses_per_rev(), state_.axle),
       encoder_(settings.encoder, settings.motor.pulses_per_rev(), state_.encoder),
       switches_(kernel, name, {settings.limit_minus, settings.limit_plus, settings.home}, axle_, state_.switches),
@@ -72,17 +69,13 @@ std::span<const std::string_view> AxisMechanics::fault_names() {
 // ---- notifications of the pulses
 
 void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now) {
-    // Along a ramp the rotor follows each step.
-    const auto follow = [this](double to) {
-        if (state_.strain.deadline == never) state_.strain.steady_hz += to - state_.motor.rate_hz;
-    };
-    follow(pulses_before);  // along a curve the rate has drifted since the last notification
-    motor_.note_rate(pulses_before);
-    feel(now);
-    if (std::fabs(rate - pulses_before) <= ramp_step * motor_.settings().start_stop_hz) follow(rate);
-    const double jump = std::fabs(rate - state_.strain.steady_hz);
-    if (motor_.in_step() && jump > motor_.settings().start_stop_hz) return strain(rate, now);
-    state_.strain.deadline = never;
+    if (strain_.change_rate(pulses_before, rate, now)) {
+        const double reported = state_.motor.rate_hz;
+        strain_.strain(rate, input_.pulses_at(now), now);
+        put_off();
+        notify_rate(reported, now);
+        return;
+    }
     if (!motor_.in_step() || std::fabs(rate) > motor_.settings().pull_out_hz) {
         change_motor(now, [&] { motor_.change_rate(rate, input_.pulses_at(now)); });
         return;
@@ -95,56 +88,15 @@ void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now)
     notify_rate(motor_.rotor_rate(before), now);
 }
 
-/// Updates the smoothed rate for the elapsed time.
-void AxisMechanics::feel(Instant now) {
-    Strain& s = state_.strain;
-    const double part = std::min(1.0, to_seconds(now - s.steady_at) * 1e3);
-    s.steady_hz += (state_.motor.rate_hz - s.steady_hz) * part;
-    s.steady_at = now;
-}
-
-/// Starts a strain: the motor cannot follow `rate`; computes the time until step loss.
-void AxisMechanics::strain(double rate, Instant now) {
-    Strain& s = state_.strain;
-    const double reported = state_.motor.rate_hz;
-    if (s.deadline == never) {
-        s.rate_hz = s.steady_hz;
-        s.since = now;
-        s.pulses = input_.pulses_at(now);
-    }
-    const double full_step = static_cast<double>(motor_.settings().microsteps);
-    const double away = static_cast<double>(input_.pulses_at(now) - s.pulses) - s.rate_hz * to_seconds(now - s.since);
-    const double margin = full_step - std::fabs(away), apart = std::fabs(rate - s.rate_hz);
-    if (margin > 0 && apart == 0) {  // the pulses have returned to the rotor's rate before a step loss
-        s.deadline = never;
-        s.steady_hz = rate;
-        s.steady_at = now;
-    } else {
-        s.deadline = now + from_seconds(margin > 0 ? std::min(margin / apart, max_strain_s) : 0);
-    }
-    motor_.note_rate(rate);
-    put_off();
-    notify_rate(reported, now);
-}
-
 /// Step loss after a deviation of one full step: the motor stalls or, at a low rate, locks at another position. No step
 /// loss if the mean pulse rate since then was low enough.
 void AxisMechanics::give_way(Instant now) {
-    Strain& s = state_.strain;
-    s.deadline = never;
-    const double mean =
-        static_cast<double>(input_.pulses_at(now) - s.pulses) / std::max(1e-9, to_seconds(now - s.since));
-    if (std::fabs(mean - s.rate_hz) <= motor_.settings().start_stop_hz) {
-        s.steady_hz = mean;
-        s.steady_at = now;
-        return;
-    }
+    if (strain_.survive(input_.pulses_at(now), now)) return;
     input_.deliver_edges();  // the pulses before the step loss still move the rotor
     const double rate = state_.motor.rate_hz;
-    motor_.note_rate(s.rate_hz);
+    motor_.note_rate(strain_.rate_hz());
     change_motor(now, [&] { motor_.change_rate(rate, input_.pulses_at(now)); });
-    s.steady_hz = rate;
-    s.steady_at = now;
+    strain_.settle(rate, now);
 }
 
 void AxisMechanics::notify_rate(double before, Instant now) {
@@ -256,12 +208,12 @@ void AxisMechanics::aim(Instant now) {
 
 // Schedules the next event that needs no pulse.
 void AxisMechanics::put_off() {
-    kernel_.schedule(id_, std::min({state_.pending, state_.strain.deadline, switches_.next()}));
+    kernel_.schedule(id_, std::min({state_.pending, strain_.deadline(), switches_.next()}));
 }
 
 void AxisMechanics::on_scheduled(Instant now) {
     switches_.act(now);
-    if (state_.strain.deadline <= now) give_way(now);
+    if (strain_.deadline() <= now) give_way(now);
     if (state_.pending <= now) {
         state_.pending = never;
         crossed(now);

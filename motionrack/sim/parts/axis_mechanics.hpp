@@ -17,6 +17,7 @@
 #include <motionrack/sim/parts/conditions.hpp>
 #include <motionrack/sim/parts/encoder.hpp>
 #include <motionrack/sim/parts/pulse_input.hpp>
+#include <motionrack/sim/parts/rotor_strain.hpp>
 #include <motionrack/sim/parts/stepper.hpp>
 #include <motionrack/sim/parts/transmission.hpp>
 #include <motionrack/sim/position_function.hpp>
@@ -121,20 +122,9 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
         Range counts;  // requested by the listener
         Range rotor;   // the same, in microsteps
     };
-    /// The pulse rate has changed by more than the motor follows at once. Step loss occurs when the pulses deviate by
-    /// one full step from the previous rate, not sooner: a pulse that is early or late has no effect.
-    struct Strain {
-        double steady_hz =
-            0;  // the rate that the rotor's inertia follows: the pulse rate with jumps smoothed over a millisecond
-        Instant steady_at{};
-        double rate_hz = 0;  // the steady rate when the strain began
-        Instant since{};
-        Instant deadline = never;  // never: no strain
-        std::int64_t pulses = 0;   // at `since`
-    };
     struct State {
         StepperState motor;
-        Strain strain;
+        RotorStrainState strain;
         TransmissionState axle;
         EncoderState encoder;
         AxisSwitches::States switches;
@@ -168,8 +158,6 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     bool check_ends(Instant now);
     void aim(Instant now);
     void put_off();
-    void feel(Instant now);
-    void strain(double rate, Instant now);
     void give_way(Instant now);
     void notify_rate(double before, Instant now);
     bool motor_fault(std::string_view name, double value, Instant now);
@@ -183,6 +171,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     sim::DeviceId id_;
     Stepper motor_;
     PulseInput input_;
+    RotorStrain strain_;
     Transmission axle_;
     Encoder encoder_;
     AxisSwitches switches_;
