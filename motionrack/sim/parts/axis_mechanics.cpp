@@ -6,7 +6,6 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr int index_pin = 0;
 constexpr std::array<std::string_view, 12> axis_machine_faults = {"motor.stall",
                                                                   "motor.lose_steps",
                                                                   "motor.push",
@@ -48,12 +47,9 @@ AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const
       axle_(settings.axle, settings.motor.pulses_per_rev(), state_.axle),
       encoder_(settings.encoder, settings.motor.pulses_per_rev(), state_.encoder),
       switches_(kernel, name, {settings.limit_minus, settings.limit_plus, settings.home}, axle_, state_.switches),
+      index_(kernel, id_, name, encoder_, state_.index, state_.index_wanted, state_.index_level),
       faces_{MechanicsPosition(*this, rotor_face), MechanicsPosition(*this, encoder_face)},
-      edge_generator_(std::make_unique<EdgeGenerator>(state_.last_edge)) {
-    if (!encoder_.present()) return;
-    index_wire_ = kernel_.add_wire(name + ".enc_z", encoder_.index(0));
-    kernel_.drive_lazily(index_wire_, id_, index_pin);
-}
+      edge_generator_(std::make_unique<EdgeGenerator>(state_.last_edge)) {}
 
 AxisMechanics::~AxisMechanics() = default;
 
@@ -154,19 +150,10 @@ void AxisMechanics::check(Instant now) {
     checking_ = true;
     const std::int64_t rotor = input_.rotor_at(now);
     switches_.check(rotor, now);
-    if (state_.index_wanted && state_.index.left(rotor)) check_index(rotor);
+    index_.check(rotor);
     check_faces(rotor, now);
     checking_ = false;
     aim(now);
-}
-
-void AxisMechanics::check_index(std::int64_t rotor) {
-    // The index may be passed within one microstep: the wire shows it nevertheless.
-    const int level = encoder_.index(rotor);
-    if (state_.index_level == level) kernel_.set_wire(index_wire_, 1 - level);
-    kernel_.set_wire(index_wire_, level);
-    state_.index_level = level;
-    state_.index = encoder_.index_range(rotor);
 }
 
 void AxisMechanics::check_faces(std::int64_t rotor, Instant now) {
@@ -198,7 +185,7 @@ void AxisMechanics::aim(Instant now) {
             all = all.within(range);
     };
     switches_.add_ranges(add);
-    if (state_.index_wanted) add(state_.index);
+    index_.add_range(add);
     for (int face = 0; face < face_count; ++face)
         for (int i = 0; i < listeners_[face].size(); ++i) add(state_.watches[face][i].rotor);
     state_.pending = left ? now + Duration{1} : never;

@@ -16,6 +16,7 @@
 #include <motionrack/sim/parts/axis_switches.hpp>
 #include <motionrack/sim/parts/conditions.hpp>
 #include <motionrack/sim/parts/encoder.hpp>
+#include <motionrack/sim/parts/index_line.hpp>
 #include <motionrack/sim/parts/pulse_input.hpp>
 #include <motionrack/sim/parts/rotor_strain.hpp>
 #include <motionrack/sim/parts/stepper.hpp>
@@ -79,7 +80,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     sim::WireId limit_minus_wire() const { return switches_.wire(0); }
     sim::WireId limit_plus_wire() const { return switches_.wire(1); }
     sim::WireId home_wire() const { return switches_.wire(2); }
-    sim::WireId index_wire() const { return index_wire_; }
+    sim::WireId index_wire() const { return index_.wire(); }
     sim::DeviceId id() const { return id_; }
     const AxisMechanicsSettings& settings() const { return settings_; }
     const AxisSwitches& switches() const { return switches_; }
@@ -154,7 +155,6 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     void change_motor(Instant now, Change change);
     void check(Instant now);
     void check_faces(std::int64_t rotor, Instant now);
-    void check_index(std::int64_t rotor);
     bool check_ends(Instant now);
     void aim(Instant now);
     void put_off();
@@ -175,7 +175,7 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     Transmission axle_;
     Encoder encoder_;
     AxisSwitches switches_;
-    sim::WireId index_wire_ = sim::WireId::none;
+    IndexLine index_;
     std::array<MechanicsPosition, face_count> faces_;
     std::array<sim::Listeners, face_count> listeners_;
     std::array<sim::EdgeListener*, face_count> edge_listeners_{};

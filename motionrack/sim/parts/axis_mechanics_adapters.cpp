@@ -45,10 +45,7 @@ int AxisMechanics::level_at(int, Instant now) const {
 }
 
 void AxisMechanics::wanted_changed(int, bool wanted, Instant now) {
-    const std::int64_t rotor = input_.rotor_at(now);
-    state_.index_wanted = wanted;
-    state_.index_level = encoder_.index(rotor);
-    state_.index = wanted ? encoder_.index_range(rotor) : Range{};
+    index_.subscribe(wanted, input_.rotor_at(now));
     aim(now);
 }
 

@@ -59,9 +59,9 @@ bool RotorStrain::survive(std::int64_t pulses, Instant now) {
     RotorStrainState& s = state_;
     s.deadline = never;
     const double mean = static_cast<double>(pulses - s.pulses) / std::max(1e-9, to_seconds(now - s.since));
-    if (std::fabs(mean - s.rate_hz) > motor_.settings().start_stop_hz) return false;
-    settle(mean, now);
-    return true;
+    const bool followed = std::fabs(mean - s.rate_hz) <= motor_.settings().start_stop_hz;
+    if (followed) settle(mean, now);
+    return followed;
 }
 
 void RotorStrain::settle(double rate, Instant now) {
