@@ -48,7 +48,8 @@ AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const
       encoder_(settings.encoder, settings.motor.pulses_per_rev(), state_.encoder),
       switches_(kernel, name, {settings.limit_minus, settings.limit_plus, settings.home}, axle_, state_.switches),
       index_(kernel, id_, name, encoder_, state_.index, state_.index_wanted, state_.index_level),
-      faces_{MechanicsPosition(*this, rotor_face), MechanicsPosition(*this, encoder_face)},
+      faces_(input_, encoder_, state_.watches),
+      positions_{MechanicsPosition(*this, rotor_face), MechanicsPosition(*this, encoder_face)},
       edge_generator_(std::make_unique<EdgeGenerator>(state_.last_edge)) {}
 
 AxisMechanics::~AxisMechanics() = default;
@@ -69,7 +70,7 @@ void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now)
         const double reported = state_.motor.rate_hz;
         strain_.strain(rate, input_.pulses_at(now), now);
         put_off();
-        notify_rate(reported, now);
+        faces_.notify_rate(reported, motor_.rotor_rate(state_.motor.rate_hz), now);
         return;
     }
     if (!motor_.in_step() || std::fabs(rate) > motor_.settings().pull_out_hz) {
@@ -81,7 +82,7 @@ void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now)
     motor_.note_rate(rate);
     const double velocity = std::fabs(rate);
     if (velocity > state_.top_hz) state_.top_hz = velocity;
-    notify_rate(motor_.rotor_rate(before), now);
+    faces_.notify_rate(motor_.rotor_rate(before), motor_.rotor_rate(state_.motor.rate_hz), now);
 }
 
 /// Step loss after a deviation of one full step: the motor stalls or, at a low rate, locks at another position. No step
@@ -93,14 +94,6 @@ void AxisMechanics::give_way(Instant now) {
     motor_.note_rate(strain_.rate_hz());
     change_motor(now, [&] { motor_.change_rate(rate, input_.pulses_at(now)); });
     strain_.settle(rate, now);
-}
-
-void AxisMechanics::notify_rate(double before, Instant now) {
-    const double rate = motor_.rotor_rate(state_.motor.rate_hz);
-    listeners_[rotor_face].notify_rate(before, rate, now);
-    if (listeners_[encoder_face].size() == 0) return;
-    const auto counts = [this](double rotor) { return encoder_.present() ? encoder_.rate(rotor) : 0; };
-    listeners_[encoder_face].notify_rate(counts(before), counts(rate), now);
 }
 
 void AxisMechanics::crossed(Instant now) {
@@ -130,7 +123,8 @@ void AxisMechanics::change_motor(Instant now, Change change) {
     }
     check(now);
     const double reported = before.hold == RotorHold::in_step ? before.rate_hz : 0;
-    if (motor_.rotor_rate(state_.motor.rate_hz) != reported) notify_rate(reported, now);
+    if (motor_.rotor_rate(state_.motor.rate_hz) != reported)
+        faces_.notify_rate(reported, motor_.rotor_rate(state_.motor.rate_hz), now);
 }
 
 bool AxisMechanics::check_ends(Instant now) {
@@ -151,25 +145,9 @@ void AxisMechanics::check(Instant now) {
     const std::int64_t rotor = input_.rotor_at(now);
     switches_.check(rotor, now);
     index_.check(rotor);
-    check_faces(rotor, now);
+    faces_.check(rotor, now);
     checking_ = false;
     aim(now);
-}
-
-void AxisMechanics::check_faces(std::int64_t rotor, Instant now) {
-    for (int face = 0; face < face_count; ++face) {
-        for (int i = 0; i < listeners_[face].size(); ++i) {
-            Watch& w = state_.watches[face][i];
-            if (!w.rotor.left(rotor)) continue;
-            const std::int64_t count = face == rotor_face ? rotor : encoder_.count(rotor);
-            if (w.counts.left(count)) {
-                w = {};
-                listeners_[face][i].crossed(now);
-            } else {
-                w.rotor = encoder_.rotor_range(w.counts, rotor);
-            }
-        }
-    }
 }
 
 // Watches the nearest position of any event.
@@ -186,8 +164,7 @@ void AxisMechanics::aim(Instant now) {
     };
     switches_.add_ranges(add);
     index_.add_range(add);
-    for (int face = 0; face < face_count; ++face)
-        for (int i = 0; i < listeners_[face].size(); ++i) add(state_.watches[face][i].rotor);
+    faces_.add_ranges(add);
     state_.pending = left ? now + Duration{1} : never;
     put_off();
     input_.watch(all);
@@ -249,12 +226,9 @@ bool AxisMechanics::encoder_fault(std::string_view name, double value, Instant n
     encoder_.set_fault(value != 0 ? fault : LineFault::none, rotor);
     if (edge_listeners_[encoder_face])
         edge_generator_->count_jump(*edge_listeners_[encoder_face], now, before, encoder_.count(rotor));
-    for (int i = 0; i < listeners_[encoder_face].size(); ++i) {
-        Watch& w = state_.watches[encoder_face][i];
-        w.rotor = encoder_.rotor_range(w.counts, rotor);
-    }
+    faces_.renew_encoder_ranges(rotor);
     aim(now);
-    notify_rate(motor_.rotor_rate(state_.motor.rate_hz), now);
+    faces_.notify_rate(motor_.rotor_rate(state_.motor.rate_hz), motor_.rotor_rate(state_.motor.rate_hz), now);
     return true;
 }
 

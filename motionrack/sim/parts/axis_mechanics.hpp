@@ -12,11 +12,11 @@
 #include <array>
 #include <memory>
 #include <motionrack/sim/kernel.hpp>
-#include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/parts/axis_switches.hpp>
 #include <motionrack/sim/parts/conditions.hpp>
 #include <motionrack/sim/parts/encoder.hpp>
 #include <motionrack/sim/parts/index_line.hpp>
+#include <motionrack/sim/parts/mechanics_faces.hpp>
 #include <motionrack/sim/parts/pulse_input.hpp>
 #include <motionrack/sim/parts/rotor_strain.hpp>
 #include <motionrack/sim/parts/stepper.hpp>
@@ -100,18 +100,23 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     bool fault(std::string_view name, double value, Instant now) override;
 
   private:
-    static constexpr int slots = sim::PositionFunction::max_listeners;
-    enum MechanicsAdapter : int { rotor_face, encoder_face, face_count };
+    using MechanicsAdapter = MechanicsFaces::MechanicsAdapter;
+    static constexpr auto rotor_face = MechanicsFaces::rotor_face, encoder_face = MechanicsFaces::encoder_face;
+    static constexpr int face_count = MechanicsFaces::face_count;
 
     class MechanicsPosition final : public sim::PositionFunction {
       public:
         MechanicsPosition(AxisMechanics& machine, MechanicsAdapter face) : machine_(machine), face_(face) {}
-        std::int64_t count(Instant t) const override { return machine_.face_count_at(face_, t); }
-        double rate(Instant t) const override { return machine_.face_rate(face_, t); }
+        std::int64_t count(Instant t) const override { return machine_.faces_.count_at(face_, t); }
+        double rate(Instant t) const override { return machine_.faces_.rate_at(face_, t); }
         void watch(int slot, std::int64_t below, std::int64_t above) override {
-            machine_.watch(face_, slot, {below, above});
+            const Instant now = machine_.kernel_.now();
+            machine_.faces_.watch(face_, slot, {below, above}, now);
+            machine_.aim(now);
         }
-        int add_listener(sim::PositionListener& listener) override { return machine_.add_listener(face_, listener); }
+        int add_listener(sim::PositionListener& listener) override {
+            return machine_.faces_.add_listener(face_, listener);
+        }
         void set_edge_listener(sim::EdgeListener* listener) override { machine_.set_edge_listener(face_, listener); }
         void deliver_edges() override { machine_.input_.deliver_edges(); }
 
@@ -119,17 +124,13 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
         AxisMechanics& machine_;
         MechanicsAdapter face_;
     };
-    struct Watch {
-        Range counts;  // requested by the listener
-        Range rotor;   // the same, in microsteps
-    };
     struct State {
         StepperState motor;
         RotorStrainState strain;
         TransmissionState axle;
         EncoderState encoder;
         AxisSwitches::States switches;
-        std::array<std::array<Watch, slots>, face_count> watches;
+        MechanicsFaces::Watches watches;
         Range index;  // rotor range of a constant index line, while subscribed
         Range aimed;  // watched range of the pulses
         double top_hz = 0;
@@ -144,22 +145,16 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     void rate_changed(double before, double rate, Instant now) override;
     void edges(const sim::EdgeBatch& batch) override;
 
-    std::int64_t face_count_at(MechanicsAdapter face, Instant t) const;
-    double face_rate(MechanicsAdapter face, Instant t) const;
-    void watch(MechanicsAdapter face, int slot, Range counts);
-    int add_listener(MechanicsAdapter face, sim::PositionListener& listener);
     void set_edge_listener(MechanicsAdapter face, sim::EdgeListener* listener);
 
     /// Runs `change` of the motor, which may move the rotor or cause a step loss, and updates all dependent state.
     template <class Change>
     void change_motor(Instant now, Change change);
     void check(Instant now);
-    void check_faces(std::int64_t rotor, Instant now);
     bool check_ends(Instant now);
     void aim(Instant now);
     void put_off();
     void give_way(Instant now);
-    void notify_rate(double before, Instant now);
     bool motor_fault(std::string_view name, double value, Instant now);
     bool encoder_fault(std::string_view name, double value, Instant now);
 
@@ -176,8 +171,8 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     Encoder encoder_;
     AxisSwitches switches_;
     IndexLine index_;
-    std::array<MechanicsPosition, face_count> faces_;
-    std::array<sim::Listeners, face_count> listeners_;
+    MechanicsFaces faces_;
+    std::array<MechanicsPosition, face_count> positions_;
     std::array<sim::EdgeListener*, face_count> edge_listeners_{};
     sim::EdgeListener* pulse_edges_ = nullptr;
     std::unique_ptr<EdgeGenerator> edge_generator_;

@@ -6,36 +6,10 @@
 namespace motionrack::parts {
 
 sim::PositionFunction& AxisMechanics::rotor() {
-    return faces_[rotor_face];
+    return positions_[rotor_face];
 }
 sim::PositionFunction& AxisMechanics::encoder() {
-    return faces_[encoder_face];
-}
-std::int64_t AxisMechanics::face_count_at(MechanicsAdapter face, Instant t) const {
-    if (face == rotor_face) return input_.rotor_at(t);
-    return encoder_.present() ? encoder_.count(input_.rotor_at(t)) : 0;
-}
-
-double AxisMechanics::face_rate(MechanicsAdapter face, Instant t) const {
-    const double rotor = input_.rotor_rate_at(t);
-    if (face == rotor_face) return rotor;
-    return encoder_.present() ? encoder_.rate(rotor) : 0;
-}
-
-int AxisMechanics::add_listener(MechanicsAdapter face, sim::PositionListener& listener) {
-    return listeners_[face].add(listener);
-}
-
-void AxisMechanics::watch(MechanicsAdapter face, int slot, Range counts) {
-    MOTIONRACK_ASSERT(slot >= 0 && slot < listeners_[face].size());
-    Watch& w = state_.watches[face][static_cast<std::size_t>(slot)];
-    const Instant now = kernel_.now();
-    w.counts = counts;
-    if (face == rotor_face)
-        w.rotor = counts;
-    else
-        w.rotor = encoder_.present() ? encoder_.rotor_range(counts, input_.rotor_at(now)) : Range{};
-    aim(now);
+    return positions_[encoder_face];
 }
 
 // ---- The index wire
