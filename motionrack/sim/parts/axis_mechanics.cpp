@@ -1,6 +1,5 @@
-// Crossings, rates and faults of one axis; axis_mechanics_adapters.cpp has the outputs to listeners.
+// Crossings, rates and faults of one axis.
 #include <motionrack/sim/parts/axis_mechanics.hpp>
-#include <motionrack/sim/parts/edge_generator.hpp>
 
 namespace motionrack::parts {
 
@@ -49,10 +48,9 @@ AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const
       switches_(kernel, name, {settings.limit_minus, settings.limit_plus, settings.home}, axle_, state_.switches),
       index_(kernel, id_, name, encoder_, state_.index, state_.index_wanted, state_.index_level),
       faces_(input_, encoder_, state_.watches),
-      positions_{MechanicsPosition(*this, rotor_face), MechanicsPosition(*this, encoder_face)},
-      edge_generator_(std::make_unique<EdgeGenerator>(state_.last_edge)) {}
-
-AxisMechanics::~AxisMechanics() = default;
+      positions_{MechanicsPosition(*this, MechanicsFaces::rotor_face),
+                 MechanicsPosition(*this, MechanicsFaces::encoder_face)},
+      edges_(input_, state_.motor, encoder_, state_.edges_until, state_.last_edge) {}
 
 void AxisMechanics::connect(sim::PositionFunction& pulses) {
     input_.connect(pulses, *this);
@@ -63,6 +61,23 @@ std::span<const std::string_view> AxisMechanics::fault_names() {
     return axis_machine_faults;
 }
 
+sim::PositionFunction& AxisMechanics::rotor() {
+    return positions_[MechanicsFaces::rotor_face];
+}
+
+sim::PositionFunction& AxisMechanics::encoder() {
+    return positions_[MechanicsFaces::encoder_face];
+}
+
+int AxisMechanics::level_at(int, Instant now) const {
+    return encoder_.index(input_.rotor_at(now));
+}
+
+void AxisMechanics::wanted_changed(int, bool wanted, Instant now) {
+    index_.subscribe(wanted, input_.rotor_at(now));
+    aim(now);
+}
+
 // ---- notifications of the pulses
 
 void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now) {
@@ -70,7 +85,7 @@ void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now)
         const double reported = state_.motor.rate_hz;
         strain_.strain(rate, input_.pulses_at(now), now);
         put_off();
-        faces_.notify_rate(reported, motor_.rotor_rate(state_.motor.rate_hz), now);
+        faces_.notify_rate(reported, input_.rotor_rate(), now);
         return;
     }
     if (!motor_.in_step() || std::fabs(rate) > motor_.settings().pull_out_hz) {
@@ -82,7 +97,7 @@ void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now)
     motor_.note_rate(rate);
     const double velocity = std::fabs(rate);
     if (velocity > state_.top_hz) state_.top_hz = velocity;
-    faces_.notify_rate(motor_.rotor_rate(before), motor_.rotor_rate(state_.motor.rate_hz), now);
+    faces_.notify_rate(motor_.rotor_rate(before), input_.rotor_rate(), now);
 }
 
 /// Step loss after a deviation of one full step: the motor stalls or, at a low rate, locks at another position. No step
@@ -113,18 +128,13 @@ void AxisMechanics::change_motor(Instant now, Change change) {
     change();
     const std::int64_t rotor = motor_.rotor(pulses);
     axle_.turn(rotor);
-    const bool jumped = rotor != rotor_before;
     report_change(before, state_.motor, rotor_before, rotor, [&](AxisCondition code, std::int64_t a, std::int64_t b) {
         kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
     });
-    if (jumped && (edge_listeners_[rotor_face] || edge_listeners_[encoder_face])) {
-        edge_generator_->jump(encoder_, edge_listeners_, now, state_.edges_until, rotor);
-        state_.edges_until = rotor;
-    }
+    edges_.jump(rotor_before, rotor, now);
     check(now);
     const double reported = before.hold == RotorHold::in_step ? before.rate_hz : 0;
-    if (motor_.rotor_rate(state_.motor.rate_hz) != reported)
-        faces_.notify_rate(reported, motor_.rotor_rate(state_.motor.rate_hz), now);
+    if (input_.rotor_rate() != reported) faces_.notify_rate(reported, input_.rotor_rate(), now);
 }
 
 bool AxisMechanics::check_ends(Instant now) {
@@ -224,11 +234,10 @@ bool AxisMechanics::encoder_fault(std::string_view name, double value, Instant n
     const std::int64_t rotor = input_.rotor_at(now);
     const std::int64_t before = encoder_.count(rotor);
     encoder_.set_fault(value != 0 ? fault : LineFault::none, rotor);
-    if (edge_listeners_[encoder_face])
-        edge_generator_->count_jump(*edge_listeners_[encoder_face], now, before, encoder_.count(rotor));
+    edges_.count_jump(before, encoder_.count(rotor), now);
     faces_.renew_encoder_ranges(rotor);
     aim(now);
-    faces_.notify_rate(motor_.rotor_rate(state_.motor.rate_hz), motor_.rotor_rate(state_.motor.rate_hz), now);
+    faces_.notify_rate(input_.rotor_rate(), input_.rotor_rate(), now);
     return true;
 }
 

@@ -10,10 +10,10 @@
 #pragma once
 
 #include <array>
-#include <memory>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/parts/axis_switches.hpp>
 #include <motionrack/sim/parts/conditions.hpp>
+#include <motionrack/sim/parts/edge_output.hpp>
 #include <motionrack/sim/parts/encoder.hpp>
 #include <motionrack/sim/parts/index_line.hpp>
 #include <motionrack/sim/parts/mechanics_faces.hpp>
@@ -38,12 +38,11 @@ struct AxisMechanicsSettings {
     LimitSwitchSettings home{.position = {}, .side = SwitchSide::at_and_below};
 };
 
-class AxisMechanics final : public sim::Device, private sim::PositionListener, private sim::EdgeListener {
+class AxisMechanics final : public sim::Device, private sim::PositionListener {
   public:
     /// Adds the device `name` and its wires to the kernel (before start): NAME.limit_minus, NAME.limit_plus, NAME.home
     /// for existing switches, NAME.enc_z (lazily driven) for an encoder.
     AxisMechanics(sim::Kernel& kernel, const std::string& name, const AxisMechanicsSettings& settings);
-    ~AxisMechanics() override;
     AxisMechanics(const AxisMechanics&) = delete;
     AxisMechanics& operator=(const AxisMechanics&) = delete;
 
@@ -62,12 +61,12 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     QuadratureLevels encoder_lines(Instant t) const { return encoder_.lines(input_.rotor_at(t)); }
     /// Sets the listener for the edges of the pulses. The pulses have only one edge listener, which is this machine if
     /// it generates edges.
-    void listen_pulse_edges(sim::EdgeListener* listener);
+    void listen_pulse_edges(sim::EdgeListener* listener) { edges_.set_pulse_listener(listener); }
 
     /// True position of the table at `t` (not before the last event, not after the present), mm or degrees.
     double position(Instant t) const { return axle_.position(input_.rotor_at(t)); }
     /// True velocity of the table by the present law, mm/s or degrees/s, signed.
-    double velocity() const { return motor_.rotor_rate(state_.motor.rate_hz) * axle_.units_per_pulse(); }
+    double velocity() const { return input_.rotor_rate() * axle_.units_per_pulse(); }
     /// Pulses - rotor at `t`: 0 without step loss; a multiple of 4 full steps while in step.
     std::int64_t lost_steps(Instant t) const { return input_.pulses_at(t) - input_.rotor_at(t); }
     std::int64_t lost_steps() const { return lost_steps(kernel_.now()); }
@@ -101,8 +100,6 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
 
   private:
     using MechanicsAdapter = MechanicsFaces::MechanicsAdapter;
-    static constexpr auto rotor_face = MechanicsFaces::rotor_face, encoder_face = MechanicsFaces::encoder_face;
-    static constexpr int face_count = MechanicsFaces::face_count;
 
     class MechanicsPosition final : public sim::PositionFunction {
       public:
@@ -117,7 +114,9 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
         int add_listener(sim::PositionListener& listener) override {
             return machine_.faces_.add_listener(face_, listener);
         }
-        void set_edge_listener(sim::EdgeListener* listener) override { machine_.set_edge_listener(face_, listener); }
+        void set_edge_listener(sim::EdgeListener* listener) override {
+            machine_.edges_.set_listener(face_, listener, machine_.kernel_.now());
+        }
         void deliver_edges() override { machine_.input_.deliver_edges(); }
 
       private:
@@ -143,9 +142,6 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
 
     void crossed(Instant now) override;
     void rate_changed(double before, double rate, Instant now) override;
-    void edges(const sim::EdgeBatch& batch) override;
-
-    void set_edge_listener(MechanicsAdapter face, sim::EdgeListener* listener);
 
     /// Runs `change` of the motor, which may move the rotor or cause a step loss, and updates all dependent state.
     template <class Change>
@@ -157,8 +153,6 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     void give_way(Instant now);
     bool motor_fault(std::string_view name, double value, Instant now);
     bool encoder_fault(std::string_view name, double value, Instant now);
-
-    class EdgeGenerator;
 
     sim::Kernel& kernel_;
     AxisMechanicsSettings settings_;
@@ -172,10 +166,8 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener, p
     AxisSwitches switches_;
     IndexLine index_;
     MechanicsFaces faces_;
-    std::array<MechanicsPosition, face_count> positions_;
-    std::array<sim::EdgeListener*, face_count> edge_listeners_{};
-    sim::EdgeListener* pulse_edges_ = nullptr;
-    std::unique_ptr<EdgeGenerator> edge_generator_;
+    std::array<MechanicsPosition, MechanicsFaces::face_count> positions_;
+    EdgeOutput edges_;
     bool checking_ = false;  // within check(): defers aim() to its end
 };
 

@@ -5,8 +5,8 @@
 
 namespace motionrack::parts {
 
-void AxisMechanics::EdgeGenerator::pass(const Encoder& encoder, const Listeners& listeners, const sim::EdgeBatch& batch,
-                                        std::int64_t first, std::uint32_t size) {
+void EdgeGenerator::pass(const Encoder& encoder, const Listeners& listeners, const sim::EdgeBatch& batch,
+                         std::int64_t first, std::uint32_t size) {
     const sim::EdgeBatch* rotor = &batch;
     if (first != batch.first_count || size != batch.size) {
         copy_.origin = batch.origin;
@@ -17,16 +17,16 @@ void AxisMechanics::EdgeGenerator::pass(const Encoder& encoder, const Listeners&
         std::copy_n(batch.at.begin(), size, copy_.at.begin());
         rotor = &copy_;
     }
-    if (listeners[rotor_face]) listeners[rotor_face]->edges(*rotor);
-    if (!listeners[encoder_face]) return;
+    if (listeners[MechanicsFaces::rotor_face]) listeners[MechanicsFaces::rotor_face]->edges(*rotor);
+    if (!listeners[MechanicsFaces::encoder_face]) return;
     if (encoder.transparent())
-        listeners[encoder_face]->edges(*rotor);
+        listeners[MechanicsFaces::encoder_face]->edges(*rotor);
     else
-        turn(*listeners[encoder_face], encoder, *rotor, first, size);
+        turn(*listeners[MechanicsFaces::encoder_face], encoder, *rotor, first, size);
 }
 
-void AxisMechanics::EdgeGenerator::turn(sim::EdgeListener& listener, const Encoder& encoder,
-                                        const sim::EdgeBatch& batch, std::int64_t first, std::uint32_t size) {
+void EdgeGenerator::turn(sim::EdgeListener& listener, const Encoder& encoder, const sim::EdgeBatch& batch,
+                         std::int64_t first, std::uint32_t size) {
     out_.size = 0;
     out_.tick = batch.tick;
     origin_ = batch.origin;
@@ -55,7 +55,7 @@ void AxisMechanics::EdgeGenerator::turn(sim::EdgeListener& listener, const Encod
     flush(listener);
 }
 
-void AxisMechanics::EdgeGenerator::add(sim::EdgeListener& listener, std::int64_t at, std::int64_t count) {
+void EdgeGenerator::add(sim::EdgeListener& listener, std::int64_t at, std::int64_t count) {
     const std::int64_t step = count - count_;
     if (step == 0) return;
     if (out_.size == out_.capacity ||
@@ -71,13 +71,13 @@ void AxisMechanics::EdgeGenerator::add(sim::EdgeListener& listener, std::int64_t
     count_ = count;
 }
 
-void AxisMechanics::EdgeGenerator::flush(sim::EdgeListener& listener) {
+void EdgeGenerator::flush(sim::EdgeListener& listener) {
     if (out_.size > 0) listener.edges(out_);
     out_.size = 0;
 }
 
-void AxisMechanics::EdgeGenerator::jump(const Encoder& encoder, const Listeners& listeners, Instant now,
-                                        std::int64_t from, std::int64_t to) {
+void EdgeGenerator::jump(const Encoder& encoder, const Listeners& listeners, Instant now, std::int64_t from,
+                         std::int64_t to) {
     while (from != to) {
         const int step = to > from ? 1 : -1;
         copy_.origin = now;
@@ -91,8 +91,7 @@ void AxisMechanics::EdgeGenerator::jump(const Encoder& encoder, const Listeners&
     }
 }
 
-void AxisMechanics::EdgeGenerator::count_jump(sim::EdgeListener& listener, Instant now, std::int64_t from,
-                                              std::int64_t to) {
+void EdgeGenerator::count_jump(sim::EdgeListener& listener, Instant now, std::int64_t from, std::int64_t to) {
     out_.size = 0;
     out_.tick = Duration{1};
     origin_ = now;

@@ -5,16 +5,17 @@
 #pragma once
 
 #include <array>
-#include <motionrack/sim/parts/axis_mechanics.hpp>
+#include <motionrack/sim/parts/encoder.hpp>
+#include <motionrack/sim/parts/mechanics_faces.hpp>
 #include <motionrack/sim/position_function.hpp>
 
 namespace motionrack::parts {
 
-class AxisMechanics::EdgeGenerator {
+class EdgeGenerator {
   public:
-    using Listeners = std::array<sim::EdgeListener*, face_count>;
+    using Listeners = std::array<sim::EdgeListener*, MechanicsFaces::face_count>;
 
-    /// `last`: instant of the last delivered edge, part of the machine's state.
+    /// `last`: instant of the last delivered edge, part of the axis' state.
     explicit EdgeGenerator(Instant& last) : last_(last) {}
 
     /// Delivers the first `size` edges of `batch` as rotor edges; the count after the first is `first`.

@@ -23,7 +23,9 @@ class PulseInput {
     bool connected() const { return pulses_ != nullptr; }
     std::int64_t pulses_at(Instant t) const { return pulses_ ? pulses_->count(t) : 0; }
     std::int64_t rotor_at(Instant t) const { return motor_.rotor(pulses_at(t)); }
-    /// Rate of the rotor at `t`, microsteps/s.
+    /// Rate of the rotor by the last noted rate of the pulses, microsteps/s.
+    double rotor_rate() const { return motor_.rotor_rate(state_.rate_hz); }
+    /// Rate of the rotor by the present one.
     double rotor_rate_at(Instant t) const { return pulses_ ? motor_.rotor_rate(pulses_->rate(t)) : 0; }
 
     /// Watches the pulses for a rotor that leaves `rotor`.
