@@ -100,17 +100,6 @@ void AxisMechanics::rate_changed(double pulses_before, double rate, Instant now)
     faces_.notify_rate(motor_.rotor_rate(before), input_.rotor_rate(), now);
 }
 
-/// Step loss after a deviation of one full step: the motor stalls or, at a low rate, locks at another position. No step
-/// loss if the mean pulse rate since then was low enough.
-void AxisMechanics::give_way(Instant now) {
-    if (strain_.survive(input_.pulses_at(now), now)) return;
-    input_.deliver_edges();  // the pulses before the step loss still move the rotor
-    const double rate = state_.motor.rate_hz;
-    motor_.note_rate(strain_.rate_hz());
-    change_motor(now, [&] { motor_.change_rate(rate, input_.pulses_at(now)); });
-    strain_.settle(rate, now);
-}
-
 void AxisMechanics::crossed(Instant now) {
     input_.note_crossed();
     if (check_ends(now)) return;
@@ -187,7 +176,10 @@ void AxisMechanics::put_off() {
 
 void AxisMechanics::on_scheduled(Instant now) {
     switches_.act(now);
-    if (strain_.deadline() <= now) give_way(now);
+    if (strain_.deadline() <= now)
+        strain_.expire(input_, now, [&](double rate) {
+            change_motor(now, [&] { motor_.change_rate(rate, input_.pulses_at(now)); });
+        });
     if (state_.pending <= now) {
         state_.pending = never;
         crossed(now);

@@ -150,7 +150,6 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener {
     bool check_ends(Instant now);
     void aim(Instant now);
     void put_off();
-    void give_way(Instant now);
     bool motor_fault(std::string_view name, double value, Instant now);
     bool encoder_fault(std::string_view name, double value, Instant now);
 

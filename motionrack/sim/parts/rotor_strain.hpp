@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <motionrack/base/time.hpp>
+#include <motionrack/sim/parts/pulse_input.hpp>
 #include <motionrack/sim/parts/stepper.hpp>
 
 namespace motionrack::parts {
@@ -29,20 +30,28 @@ class RotorStrain {
 
     /// Instant of the step loss; never without a strain.
     Instant deadline() const { return state_.deadline; }
-    /// The rate that the rotor kept when the strain began.
-    double rate_hz() const { return state_.rate_hz; }
 
     /// The pulse rate changes from `before` to `rate`. Returns true if the motor cannot follow; else ends a strain.
     bool change_rate(double before, double rate, Instant now);
     /// Begins or continues a strain at `rate`; computes the time until step loss. `pulses`: the present count.
     void strain(double rate, std::int64_t pulses, Instant now);
-    /// Ends the strain at its deadline. Returns true if the mean pulse rate since its begin was low enough, so no step
-    /// is lost.
+    /// Ends the strain at its deadline, after a deviation of one full step: `lose_steps` with the pulse rate makes the
+    /// motor stall or, at a low rate, lock at another position. No step loss if the mean pulse rate since the begin was
+    /// low enough.
+    template <class LoseSteps>
+    void expire(PulseInput& input, Instant now, LoseSteps lose_steps) {
+        if (survive(input.pulses_at(now), now)) return;
+        input.deliver_edges();  // the pulses before the step loss still move the rotor
+        const double rate = motor_state_.rate_hz;
+        motor_.note_rate(state_.rate_hz);
+        lose_steps(rate);
+        settle(rate, now);
+    }
+
+  private:
     bool survive(std::int64_t pulses, Instant now);
     /// The rotor's inertia follows `rate` from now on.
     void settle(double rate, Instant now);
-
-  private:
     void follow(double to);
     /// Updates the smoothed rate for the elapsed time.
     void smooth(Instant now);
