@@ -69,8 +69,8 @@ void Bus::begin() {
     for (Card* card : cards_) {
         const CardSettings& s = card->settings();
         if (s.wrong_direction())
-            card->report(BusCondition::wrong_direction, card->is_host(),
-                         (s.clock_out() ? 1 : 0) | (s.address_out() ? 2 : 0));
+            card->errors_.report(BusCondition::wrong_direction, card->is_host(),
+                                 (s.clock_out() ? 1 : 0) | (s.address_out() ? 2 : 0));
         if (!alike_ || card->is_remote()) continue;
         alike_ = !s.wrong_direction() && s.same_list(host()) && s.timing == host().timing &&
                  check(s, decoders_[0]->settings()).has_value();
@@ -129,7 +129,7 @@ void Bus::drive() {
 bool Bus::give_addresses() {
     bool looked = false;
     for (Card* card : cards_) {
-        Card::Data& s = card->state_;
+        CardState& s = card->state_;
         if (s.asks == 0) continue;
         s.asks = 0;
         if (!card->is_host()) continue;

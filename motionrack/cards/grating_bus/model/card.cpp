@@ -6,7 +6,11 @@
 namespace motionrack::grating_bus {
 
 Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSettings& settings)
-    : kernel_(kernel), settings_(settings), bus_(bus), id_(kernel.add(*this, sim::Phase::cards, name)) {
+    : kernel_(kernel),
+      settings_(settings),
+      bus_(bus),
+      id_(kernel.add(*this, sim::Phase::cards, name)),
+      errors_(state_.errors, kernel, id_) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     state_wire_ = kernel.add_wire(name + ".state", 0, 4);
     done_wire_ = kernel.add_wire(name + ".frame_done", 0);
@@ -47,21 +51,12 @@ void Card::set_fresh(bool fresh) {
     if (fresh) kernel_.break_run();
 }
 
-void Card::report(BusCondition code, std::int64_t a, std::int64_t b) {
-    kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
-}
-
-void Card::count(Counter which, std::uint32_t by) {
-    std::uint16_t& counter = state_.counters[which];
-    counter = static_cast<std::uint16_t>(std::min<std::uint32_t>(0xFFFF, counter + by));
-}
-
 // ---- reset and faults
 
 // The buffers, the claim and the frame age survive a reset.
 void Card::reset() {
     if (state_.buffers.begun()) state_.buffers.abandon();
-    Data begun;
+    CardState begun;
     begun.buffers = state_.buffers;
     begun.fresh = state_.fresh;
     begun.stale = state_.stale, begun.stale_at = state_.stale_at;

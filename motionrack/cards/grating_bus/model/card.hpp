@@ -6,11 +6,11 @@
 #pragma once
 
 #include <array>
-#include <motionrack/cards/grating_bus/model/conditions.hpp>
+#include <motionrack/cards/grating_bus/model/card_state.hpp>
+#include <motionrack/cards/grating_bus/model/error_counters.hpp>
 #include <motionrack/cards/grating_bus/model/lines.hpp>
 #include <motionrack/cards/grating_bus/model/moment.hpp>
 #include <motionrack/cards/grating_bus/model/settings.hpp>
-#include <motionrack/sim/blocks/ping_pong.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/register_device.hpp>
 #include <string>
@@ -22,22 +22,6 @@ class Card;
 
 /// Counts of all scales of a decoder, by address.
 using Latched = std::array<std::uint32_t, max_scales>;
-
-/// Set of the addresses in a frame.
-class TakenAddresses {
-  public:
-    /// Adds an address; returns true if it was not in the set.
-    bool add(std::uint32_t address) {
-        std::uint32_t& word = bits_[address / 32];
-        const std::uint32_t bit = 1u << address % 32;
-        const bool fresh = (word & bit) == 0;
-        word |= bit;
-        return fresh;
-    }
-
-  private:
-    std::array<std::uint32_t, max_scales / 32> bits_{};
-};
 
 /// Delay of pulse `n` of a host with this seed, 0 .. max_delay; the same on every machine.
 std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t max_delay);
@@ -57,6 +41,8 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     /// Adds the card and its wires "<name>.<pin>" to the kernel, and plugs it into the bus; before the kernel starts.
     /// `settings` must pass check().
     Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSettings& settings = {});
+    Card(const Card&) = delete;
+    Card& operator=(const Card&) = delete;
 
     // ---- the processor's interface: offsets of the map
     std::uint16_t read(std::uint32_t offset) override;
@@ -78,8 +64,8 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     Moment moment() const;
     /// Counters of published frames, bad frames and errors.
     std::uint32_t frames() const { return state_.frames; }
-    enum Counter { broken, missed_words, alien, line_faults, missed_edges, overrun, counter_count };
-    std::uint16_t counter(Counter which) const { return state_.counters[which]; }
+    using enum ErrorCountersState::Counter;
+    std::uint16_t counter(ErrorCounter which) const { return errors_[which]; }
 
     /// Delivers a frame of another crate's bus to a remote card, between two runs of the kernel. A frame with a wrong
     /// CRC or a wrong number of scales is bad.
@@ -98,50 +84,6 @@ class Card final : public sim::Device, public sim::RegisterDevice {
   private:
     friend class Bus;
     enum Pin { state_pin, done_pin };
-
-    struct Data {
-        sim::PingPong<Frame> buffers;
-        // the sequence
-        State fsm = State::S0;
-        std::uint8_t bad = 0;      // bits of BadFrame of the present frame
-        std::uint8_t was_bad = 0;  // the last frame was bad and was reported
-        std::uint8_t stale = 1;
-        std::int32_t word = 0;
-        Instant state_ends = never;
-        Instant starts = never;  // start of a late slave
-        Instant frame_time{};
-        std::uint32_t frame_sequence = 0;
-        // pulses and edges
-        std::uint32_t sequence = 0;  // of the last pulse
-        Instant last_edge{-1};       // -1: none yet
-        std::int64_t pulse = 0;      // host: number of the next pulse
-        Instant pulse_at = never;
-        Instant fall_at = never;  // instant at which its clk falls
-        // outputs through the shifters
-        std::uint32_t clk = 0, hold = 0, read_n = 1, addr = rest_of(Line::addr);
-        std::uint32_t quiet = 0;  // in reset: all outputs are off
-        std::uint32_t off = 0;
-        Instant stale_at = never;
-        Instant held_since{};  // age origin of the frame published last: its time; on a remote card, its arrival
-        std::uint32_t published_sequence = 0;
-        std::uint32_t any = 0;       // a frame was published
-        std::uint32_t bad_word = 0;  // the present word was counted as bad
-        std::uint32_t asks = 0;      // a host has pulled READ low and not yet sampled it
-        std::uint16_t other = 0;     // 1 + the first word of the present frame whose scale differs from the card's list
-        std::uint16_t was_other = 0;  // the same of the frame published last
-        TakenAddresses taken;         // addresses in the present frame of a slave
-        // counters
-        std::uint32_t frames = 0;
-        std::array<std::uint16_t, counter_count> counters{};
-        std::uint32_t reported_overrun = 0;
-        std::uint32_t fresh = 0;  // STATUS.FRAME
-        // faults
-        std::uint32_t miss = 0;  // number of edges to miss
-        Duration late{};
-        Duration jitter{};
-    };
-
-    static_assert(std::has_unique_object_representations_v<Data>, "padding would get into the state's hash");
 
     bool idle() const { return state_.fsm == State::S0 && state_.starts == never; }
     /// Next instant at which the card is due.
@@ -174,23 +116,21 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void next_pulse();
     /// Instant of the next pulse without jitter.
     Instant grid() const { return settings_.offset + state_.pulse * settings_.period; }
-    void spoil(Counter why, std::uint8_t bad);
-    void overrun_edge();
-    void count(Counter which, std::uint32_t by = 1);
+    void spoil(ErrorCounter why, std::uint8_t bad);
     void check_stale(Instant now);
     void set_fresh(bool fresh);
     void reset();
-    void report(BusCondition code, std::int64_t a = 0, std::int64_t b = 0);
     void show();
 
     sim::Kernel& kernel_;
     CardSettings settings_;
     Bus& bus_;
-    sim::DeviceId id_{};
+    CardState state_{};
+    sim::DeviceId id_;
+    ErrorCounters errors_;
     sim::WireId state_wire_{}, done_wire_{}, int_wire_{};
     std::array<sim::WireId, output_count> outputs_{};
     std::vector<FrameListener*> listeners_;
-    Data state_{};
 };
 
 }  // namespace motionrack::grating_bus

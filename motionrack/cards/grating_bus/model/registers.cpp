@@ -17,7 +17,7 @@ constexpr Field FRAME = field("STATUS", "FRAME"), CLAIMED = field("STATUS", "CLA
                 BUSY = field("STATUS", "BUSY"), OFF = field("STATUS", "OFF");
 constexpr Field STATE = field("STATE", "STATE"), WORD = field("STATE", "WORD");
 static_assert((offset("OVERRUN") - offset("BROKEN")) / 2 + 1 == Card::counter_count,
-              "Card::Counter has the registers' order");
+              "ErrorCounter has the registers' order");
 
 /// Composes a word from flags.
 std::uint16_t flags(std::initializer_list<std::pair<Field, bool>> all) {
@@ -85,8 +85,7 @@ std::uint16_t Card::peek(std::uint32_t at) const {
         const Frame* held = state_.buffers.held();
         return frame_word(held ? *held : nothing, at);
     }
-    if (at >= offset("BROKEN") && at <= offset("OVERRUN") && at % 2 == 0)
-        return state_.counters[(at - offset("BROKEN")) / 2];
+    if (at >= offset("BROKEN") && at <= offset("OVERRUN") && at % 2 == 0) return errors_[(at - offset("BROKEN")) / 2];
     const CardSettings& s = settings_;
     if (is_address(at, list_at)) {
         const int k = static_cast<int>(at - list_at) / 2;
@@ -138,19 +137,19 @@ std::uint16_t Card::peek(std::uint32_t at) const {
 std::uint16_t Card::read(std::uint32_t at) {
     bool known = is_count(at) || is_address(at, addresses_at) || is_address(at, list_at);
     for (const RegisterInfo& reg : map::registers) known = known || (reg.access == Access::read && reg.offset == at);
-    if (!known) report(BusCondition::no_register, at, -1);
+    if (!known) errors_.report(BusCondition::no_register, at, -1);
     return peek(at);
 }
 
 void Card::write(std::uint32_t at, std::uint16_t value) {
-    if (at != offset("CONTROL")) return report(BusCondition::no_register, at, value);
+    if (at != offset("CONTROL")) return errors_.report(BusCondition::no_register, at, value);
     if (CLAIM.test(value) || RELEASE.test(value)) bus_.leave_frame(kernel_.now());
     if (CLAIM.test(value)) {
         state_.buffers.claim();
         set_fresh(false);
     }
     if (RELEASE.test(value)) state_.buffers.release();
-    if (CLEAR.test(value)) state_.counters = {}, state_.reported_overrun = 0;
+    if (CLEAR.test(value)) errors_.clear();
     if (!RESET.test(value) || off()) return;
     bus_.interrupt_span(kernel_.now());
     reset();

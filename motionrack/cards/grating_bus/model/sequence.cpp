@@ -49,13 +49,13 @@ void Card::sample(const Lines& lines, Instant now) {
     if (line_wrong) spoil(line_faults, bad_lines);
     if (address == wanted) return;
     // A slave takes the words that the host addresses, and counts a scale that differs from its own list.
-    count(alien);
+    errors_.count(alien);
     if (state_.other == 0) state_.other = static_cast<std::uint16_t>(1 + state_.word);
 }
 
 /// Counts the present word as bad, once.
-void Card::spoil(Counter why, std::uint8_t bad) {
-    if (state_.bad_word == 0) count(why);
+void Card::spoil(ErrorCounter why, std::uint8_t bad) {
+    if (state_.bad_word == 0) errors_.count(why);
     state_.bad_word = 1;
     state_.bad |= bad;
 }
@@ -80,7 +80,7 @@ void Card::clock_rose(Instant now) {
     }
     state_.quiet = 0;
     note_edge(now);
-    if (!idle()) return overrun_edge();
+    if (!idle()) return errors_.count_overrun(state_.sequence);
     if (state_.late == Duration{0}) return begin(now);
     state_.starts = now + state_.late;
 }
@@ -91,7 +91,7 @@ void Card::pulse(Instant now) {
     state_.fall_at = now + settings_.period / 2;
     note_edge(now);
     next_pulse();
-    if (!idle()) return overrun_edge();
+    if (!idle()) return errors_.count_overrun(state_.sequence);
     begin(now);
 }
 
@@ -111,17 +111,11 @@ void Card::note_edge(Instant now) {
             static_cast<std::uint32_t>((now - state_.last_edge + settings_.period / 2) / settings_.period);
         state_.sequence += periods;
         if (periods > 1) {
-            count(missed_edges, periods - 1);
-            report(BusCondition::missed_edges, periods - 1, state_.sequence);
+            errors_.count(missed_edges, periods - 1);
+            errors_.report(BusCondition::missed_edges, periods - 1, state_.sequence);
         }
     }
     state_.last_edge = now;
-}
-
-void Card::overrun_edge() {
-    count(overrun);
-    if (state_.reported_overrun == 0) report(BusCondition::overrun, state_.sequence);
-    state_.reported_overrun = 1;
 }
 
 void Card::begin(Instant now) {
@@ -215,7 +209,7 @@ void Card::publish(Instant now, const Frame* like) {
     if (state_.other != 0 && state_.was_other == 0) {
         const int word = state_.other - 1;
         const std::int64_t address = frame.addresses[static_cast<std::size_t>(word)];
-        report(BusCondition::other_scale, word, address << 8 | settings_.address(word));
+        errors_.report(BusCondition::other_scale, word, address << 8 | settings_.address(word));
     }
     state_.was_other = state_.other;
     hand_out(now, state_.frame_time);
@@ -223,8 +217,8 @@ void Card::publish(Instant now, const Frame* like) {
 
 void Card::give_up(std::uint32_t sequence, std::uint8_t why) {
     state_.buffers.abandon();
-    count(broken);
-    if (state_.was_bad == 0) report(BusCondition::bad_frame, sequence, why);
+    errors_.count(broken);
+    if (state_.was_bad == 0) errors_.report(BusCondition::bad_frame, sequence, why);
     state_.was_bad = 1;
 }
 
@@ -259,8 +253,8 @@ void Card::check_stale(Instant now) {
     if (state_.stale_at > now) return;
     state_.stale_at = never;
     state_.stale = 1;
-    report(BusCondition::stale, state_.any != 0 ? std::int64_t{state_.published_sequence} : -1,
-           state_.held_since.count());
+    errors_.report(BusCondition::stale, state_.any != 0 ? std::int64_t{state_.published_sequence} : -1,
+                   state_.held_since.count());
 }
 
 // ---- whole frames

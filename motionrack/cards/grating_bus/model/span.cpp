@@ -8,11 +8,11 @@ namespace motionrack::grating_bus {
 bool Bus::regular() const {
     if (!alike_ || state_.wanted != 0 || state_.lines.any_forced() || decoders_[0]->state_.no_latch != 0) return false;
     for (const Card* card : cards_) {
-        const Card::Data& s = card->state_;
+        const CardState& s = card->state_;
         if (s.off != 0 || s.late != Duration{0} || s.miss != 0) return false;
         if (state_.span == 0 && !card->idle()) return false;
     }
-    const Card::Data& first = cards_[static_cast<std::size_t>(host_)]->state_;
+    const CardState& first = cards_[static_cast<std::size_t>(host_)]->state_;
     const Instant next_period = cards_[static_cast<std::size_t>(host_)]->grid() + host().period;
     if (first.pulse_at + host().timing.frame_time(host().scales) >= next_period)
         return false;  // the next pulse may come too soon
@@ -87,7 +87,7 @@ void Bus::interrupt_span(Instant now) {
     decoder.state_.read_n = lines.read_n, decoder.state_.addr = lines.addr;
     state_.clk_was = span_level(Line::clk, now);
     state_.span = 0;
-    Card::Data& first = cards_[static_cast<std::size_t>(host_)]->state_;
+    CardState& first = cards_[static_cast<std::size_t>(host_)]->state_;
     first.clk = state_.clk_was;
     first.fall_at = state_.clk_was != 0 ? state_.start + host().period / 2 : never;
     for (std::size_t i = 0; i < cards_.size(); ++i) {
