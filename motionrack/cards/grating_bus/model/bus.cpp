@@ -90,7 +90,7 @@ void Bus::on_scheduled(Instant now) {
 
 // 1. samples, 2. outputs, 3. edges: the consequences of each within the same instant.
 void Bus::step(Instant now) {
-    if (host_ >= 0 && cards_[static_cast<std::size_t>(host_)]->state_.pulse_at == now && regular())
+    if (host_ >= 0 && cards_[static_cast<std::size_t>(host_)]->pulses_.next() == now && regular())
         return begin_span(now);
     if (state_.span != 0) interrupt_span(now);
     for (Card* card : cards_) card->sample(state_.lines, now);
@@ -149,7 +149,7 @@ void Bus::look_again(Instant now) {
 void Bus::schedule() {
     Instant next = state_.span != 0 && state_.published == 0 ? state_.done : never;
     if (state_.span != 0) {
-        for (const Card* card : cards_) next = std::min(next, std::min(card->state_.pulse_at, card->state_.stale_at));
+        for (const Card* card : cards_) next = std::min(next, std::min(card->pulses_.next(), card->state_.stale_at));
     } else {
         for (const Card* card : cards_) next = std::min(next, card->next());
         for (const Decoder* decoder : decoders_) next = std::min(next, decoder->state_.output);

@@ -10,7 +10,8 @@ Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSet
       settings_(settings),
       bus_(bus),
       id_(kernel.add(*this, sim::Phase::cards, name)),
-      errors_(state_.errors, kernel, id_) {
+      errors_(state_.errors, kernel, id_),
+      pulses_(state_.pulses, state_.sequence, state_.jitter, settings_, errors_) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     state_wire_ = kernel.add_wire(name + ".state", 0, 4);
     done_wire_ = kernel.add_wire(name + ".frame_done", 0);
@@ -20,7 +21,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSet
     kernel.drive_lazily(state_wire_, id_, state_pin);
     kernel.drive_lazily(done_wire_, id_, done_pin);
     state_.stale_at = 2 * settings.period;
-    if (is_host()) state_.pulse_at = settings.offset;
+    if (is_host()) pulses_.begin();
     bus.plug(*this);
 }
 
@@ -61,7 +62,7 @@ void Card::reset() {
     begun.fresh = state_.fresh;
     begun.stale = state_.stale, begun.stale_at = state_.stale_at;
     begun.held_since = state_.held_since, begun.published_sequence = state_.published_sequence, begun.any = state_.any;
-    begun.pulse = state_.pulse, begun.pulse_at = state_.pulse_at;
+    begun.pulses.number = state_.pulses.number, begun.pulses.next = state_.pulses.next;
     begun.miss = state_.miss, begun.late = state_.late, begun.jitter = state_.jitter;
     begun.off = state_.off;
     begun.quiet = 1;
@@ -87,8 +88,7 @@ bool Card::fault(std::string_view name, double value, Instant now) {
     } else if (name == "miss_edge") {
         state_.miss = static_cast<std::uint32_t>(value);
     } else if (name == "jitter") {
-        state_.jitter = ns();
-        if (now < grid()) --state_.pulse, next_pulse();
+        pulses_.set_jitter(ns(), now);
     }
     bus_.look_again(now);
     return true;

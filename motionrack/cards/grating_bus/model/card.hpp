@@ -8,6 +8,7 @@
 #include <array>
 #include <motionrack/cards/grating_bus/model/card_state.hpp>
 #include <motionrack/cards/grating_bus/model/error_counters.hpp>
+#include <motionrack/cards/grating_bus/model/frame_pulses.hpp>
 #include <motionrack/cards/grating_bus/model/lines.hpp>
 #include <motionrack/cards/grating_bus/model/moment.hpp>
 #include <motionrack/cards/grating_bus/model/settings.hpp>
@@ -22,9 +23,6 @@ class Card;
 
 /// Counts of all scales of a decoder, by address.
 using Latched = std::array<std::uint32_t, max_scales>;
-
-/// Delay of pulse `n` of a host with this seed, 0 .. max_delay; the same on every machine.
-std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t max_delay);
 
 /// Listener for every frame of a card; it runs in virtual time.
 class FrameListener {
@@ -99,8 +97,6 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void report_begin(Instant now) {
         for (FrameListener* listener : listeners_) listener->began(*this, now);
     }
-    /// Updates the sequence number and the missed edges at a pulse or an edge.
-    void note_edge(Instant now);
     void begin_frame(Instant now);
     void put_words(const Latched& latched, int words);
     void publish(Instant now, const Frame* like);
@@ -113,9 +109,6 @@ class Card final : public sim::Device, public sim::RegisterDevice {
 
     void enter(State state, Instant now);
     void pulse(Instant now);
-    void next_pulse();
-    /// Instant of the next pulse without jitter.
-    Instant grid() const { return settings_.offset + state_.pulse * settings_.period; }
     void spoil(ErrorCounter why, std::uint8_t bad);
     void check_stale(Instant now);
     void set_fresh(bool fresh);
@@ -128,6 +121,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     CardState state_{};
     sim::DeviceId id_;
     ErrorCounters errors_;
+    FramePulses pulses_;
     sim::WireId state_wire_{}, done_wire_{}, int_wire_{};
     std::array<sim::WireId, output_count> outputs_{};
     std::vector<FrameListener*> listeners_;

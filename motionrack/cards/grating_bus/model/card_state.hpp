@@ -36,6 +36,13 @@ struct ErrorCountersState {
 };
 using ErrorCounter = ErrorCountersState::Counter;
 
+struct PulseState {
+    Instant last_edge{-1};    ///< -1: none yet
+    std::int64_t number = 0;  ///< host: number of the next pulse
+    Instant next = never;     ///< instant of that pulse
+    Instant fall = never;     ///< instant at which its clk falls
+};
+
 struct CardState {
     sim::PingPong<Frame> buffers;
     // the sequence
@@ -50,10 +57,7 @@ struct CardState {
     std::uint32_t frame_sequence = 0;
     // pulses and edges
     std::uint32_t sequence = 0;  ///< number of the last pulse
-    Instant last_edge{-1};       ///< -1: none yet
-    std::int64_t pulse = 0;      ///< host: number of the next pulse
-    Instant pulse_at = never;
-    Instant fall_at = never;  ///< instant at which its clk falls
+    PulseState pulses;
     // outputs through the shifters
     std::uint32_t clk = 0, hold = 0, read_n = 1, addr = rest_of(Line::addr);
     std::uint32_t quiet = 0;  ///< in reset: all outputs are off

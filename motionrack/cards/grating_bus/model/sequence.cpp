@@ -1,15 +1,9 @@
 // The sequence S0 .. S12 of a card, step by step, and the end of a frame.
 #include <algorithm>
-#include <motionrack/base/hash_bits.hpp>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 #include <motionrack/cards/grating_bus/model/card.hpp>
 
 namespace motionrack::grating_bus {
-
-std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t max_delay) {
-    const std::uint64_t mixed = mixed_bits(seed * golden_step + static_cast<std::uint64_t>(n));
-    return static_cast<std::int64_t>(mixed % static_cast<std::uint64_t>(max_delay + 1));
-}
 
 namespace {
 
@@ -21,8 +15,8 @@ void put_word(Frame& frame, int k, std::uint32_t address, std::uint32_t count) {
 }  // namespace
 
 Instant Card::next() const {
-    if (state_.off != 0) return std::min(state_.pulse_at, state_.stale_at);
-    return std::min(std::min(std::min(state_.state_ends, state_.starts), std::min(state_.pulse_at, state_.fall_at)),
+    if (state_.off != 0) return std::min(pulses_.next(), state_.stale_at);
+    return std::min(std::min(std::min(state_.state_ends, state_.starts), std::min(pulses_.next(), pulses_.fall())),
                     state_.stale_at);
 }
 
@@ -62,13 +56,13 @@ void Card::spoil(ErrorCounter why, std::uint8_t bad) {
 
 void Card::advance(Instant now) {
     if (state_.off != 0) {  // pulses keep their period
-        if (state_.pulse_at == now) next_pulse();
+        if (pulses_.next() == now) pulses_.advance();
         return check_stale(now);
     }
     if (state_.state_ends == now) enter(after(state_.fsm, state_.word + 1 < settings_.scales), now);
     if (state_.starts == now) begin(now);
-    if (state_.fall_at == now) state_.clk = 0, state_.fall_at = never;
-    if (state_.pulse_at == now) pulse(now);
+    if (pulses_.fall() == now) state_.clk = 0, pulses_.set_fall(never);
+    if (pulses_.next() == now) pulse(now);
     check_stale(now);
 }
 
@@ -79,8 +73,8 @@ void Card::clock_rose(Instant now) {
         return;
     }
     state_.quiet = 0;
-    note_edge(now);
-    if (!idle()) return errors_.count_overrun(state_.sequence);
+    pulses_.note_edge(now);
+    if (!idle()) return errors_.count_overrun(pulses_.sequence());
     if (state_.late == Duration{0}) return begin(now);
     state_.starts = now + state_.late;
 }
@@ -88,34 +82,11 @@ void Card::clock_rose(Instant now) {
 void Card::pulse(Instant now) {
     state_.quiet = 0;
     state_.clk = 1;
-    state_.fall_at = now + settings_.period / 2;
-    note_edge(now);
-    next_pulse();
-    if (!idle()) return errors_.count_overrun(state_.sequence);
+    pulses_.set_fall(now + settings_.period / 2);
+    pulses_.note_edge(now);
+    pulses_.advance();
+    if (!idle()) return errors_.count_overrun(pulses_.sequence());
     begin(now);
-}
-
-/// Instant of pulse number `pulse`.
-void Card::next_pulse() {
-    ++state_.pulse;
-    state_.pulse_at = grid() + Duration{scatter(settings_.seed, state_.pulse, state_.jitter.count())};
-}
-
-void Card::note_edge(Instant now) {
-    if (state_.last_edge < Instant{0}) {
-        state_.sequence = 0;
-    } else if (is_host() || now - state_.last_edge < settings_.period + settings_.period / 2) {
-        ++state_.sequence;
-    } else {
-        const auto periods =
-            static_cast<std::uint32_t>((now - state_.last_edge + settings_.period / 2) / settings_.period);
-        state_.sequence += periods;
-        if (periods > 1) {
-            errors_.count(missed_edges, periods - 1);
-            errors_.report(BusCondition::missed_edges, periods - 1, state_.sequence);
-        }
-    }
-    state_.last_edge = now;
 }
 
 void Card::begin(Instant now) {
@@ -127,7 +98,7 @@ void Card::begin(Instant now) {
 
 void Card::begin_frame(Instant now) {
     state_.frame_time = now;
-    state_.frame_sequence = state_.sequence;
+    state_.frame_sequence = pulses_.sequence();
     state_.word = 0;
     state_.bad = 0;
     state_.bad_word = 0;

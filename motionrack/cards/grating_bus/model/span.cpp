@@ -12,11 +12,11 @@ bool Bus::regular() const {
         if (s.off != 0 || s.late != Duration{0} || s.miss != 0) return false;
         if (state_.span == 0 && !card->idle()) return false;
     }
-    const CardState& first = cards_[static_cast<std::size_t>(host_)]->state_;
-    const Instant next_period = cards_[static_cast<std::size_t>(host_)]->grid() + host().period;
-    if (first.pulse_at + host().timing.frame_time(host().scales) >= next_period)
+    const Card& first = *cards_[static_cast<std::size_t>(host_)];
+    const Instant next_period = first.pulses_.grid() + host().period;
+    if (first.pulses_.next() + host().timing.frame_time(host().scales) >= next_period)
         return false;  // the next pulse may come too soon
-    return state_.span != 0 || (state_.lines.level(Line::clk) == 0 && first.quiet == 0);
+    return state_.span != 0 || (state_.lines.level(Line::clk) == 0 && first.state_.quiet == 0);
 }
 
 void Bus::begin_span(Instant now) {
@@ -29,8 +29,8 @@ void Bus::begin_span(Instant now) {
         card->check_stale(now);
         if (card->is_remote()) continue;
         card->state_.quiet = 0;
-        card->note_edge(now);
-        if (card->is_host()) card->next_pulse();
+        card->pulses_.note_edge(now);
+        if (card->is_host()) card->pulses_.advance();
         card->report_begin(now);
     }
 }
@@ -87,9 +87,9 @@ void Bus::interrupt_span(Instant now) {
     decoder.state_.read_n = lines.read_n, decoder.state_.addr = lines.addr;
     state_.clk_was = span_level(Line::clk, now);
     state_.span = 0;
-    CardState& first = cards_[static_cast<std::size_t>(host_)]->state_;
-    first.clk = state_.clk_was;
-    first.fall_at = state_.clk_was != 0 ? state_.start + host().period / 2 : never;
+    Card& first = *cards_[static_cast<std::size_t>(host_)];
+    first.state_.clk = state_.clk_was;
+    first.pulses_.set_fall(state_.clk_was != 0 ? state_.start + host().period / 2 : never);
     for (std::size_t i = 0; i < cards_.size(); ++i) {
         cards_[i]->take_up(state_.start, decoder.state_.latched, now);
         cards_[i]->drive(state_.lines, card_driver_[i]);
