@@ -134,8 +134,7 @@ bool Bus::give_addresses() {
         s.asks = 0;
         if (!card->is_host()) continue;
         looked = true;
-        if (state_.lines.level(Line::read_n) == 0)
-            s.addr = static_cast<std::uint32_t>(card->settings().address(s.word));
+        if (state_.lines.level(Line::read_n) == 0) card->lines_.set_address(card->settings().address(s.word));
     }
     return looked;
 }

@@ -11,7 +11,8 @@ Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSet
       bus_(bus),
       id_(kernel.add(*this, sim::Phase::cards, name)),
       errors_(state_.errors, kernel, id_),
-      pulses_(state_.pulses, state_.sequence, state_.jitter, settings_, errors_) {
+      pulses_(state_.pulses, state_.sequence, state_.jitter, settings_, errors_),
+      lines_(state_.outputs, settings_) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     state_wire_ = kernel.add_wire(name + ".state", 0, 4);
     done_wire_ = kernel.add_wire(name + ".frame_done", 0);
@@ -65,7 +66,7 @@ void Card::reset() {
     begun.pulses.number = state_.pulses.number, begun.pulses.next = state_.pulses.next;
     begun.miss = state_.miss, begun.late = state_.late, begun.jitter = state_.jitter;
     begun.off = state_.off;
-    begun.quiet = 1;
+    begun.outputs.quiet = 1;
     state_ = begun;
     show();
 }

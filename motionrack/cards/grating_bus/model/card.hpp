@@ -9,6 +9,7 @@
 #include <motionrack/cards/grating_bus/model/card_state.hpp>
 #include <motionrack/cards/grating_bus/model/error_counters.hpp>
 #include <motionrack/cards/grating_bus/model/frame_pulses.hpp>
+#include <motionrack/cards/grating_bus/model/line_outputs.hpp>
 #include <motionrack/cards/grating_bus/model/lines.hpp>
 #include <motionrack/cards/grating_bus/model/moment.hpp>
 #include <motionrack/cards/grating_bus/model/settings.hpp>
@@ -92,7 +93,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void advance(Instant now);
     void clock_rose(Instant now);
     void begin(Instant now);
-    void drive(Lines& lines, int driver) const;
+    void drive(Lines& lines, int driver) const { lines_.drive(lines, driver, off()); }
 
     void report_begin(Instant now) {
         for (FrameListener* listener : listeners_) listener->began(*this, now);
@@ -122,6 +123,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     sim::DeviceId id_;
     ErrorCounters errors_;
     FramePulses pulses_;
+    LineOutputs lines_;
     sim::WireId state_wire_{}, done_wire_{}, int_wire_{};
     std::array<sim::WireId, output_count> outputs_{};
     std::vector<FrameListener*> listeners_;

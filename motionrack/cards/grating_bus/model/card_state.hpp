@@ -43,6 +43,11 @@ struct PulseState {
     Instant fall = never;     ///< instant at which its clk falls
 };
 
+struct LineOutputsState {
+    std::uint32_t clk = 0, hold = 0, read_n = 1, addr = rest_of(Line::addr);
+    std::uint32_t quiet = 0;  ///< in reset: all outputs are off
+};
+
 struct CardState {
     sim::PingPong<Frame> buffers;
     // the sequence
@@ -59,8 +64,7 @@ struct CardState {
     std::uint32_t sequence = 0;  ///< number of the last pulse
     PulseState pulses;
     // outputs through the shifters
-    std::uint32_t clk = 0, hold = 0, read_n = 1, addr = rest_of(Line::addr);
-    std::uint32_t quiet = 0;  ///< in reset: all outputs are off
+    LineOutputsState outputs;
     std::uint32_t off = 0;
     Instant stale_at = never;
     Instant held_since{};  ///< age origin of the frame published last: its time; on a remote card, its arrival

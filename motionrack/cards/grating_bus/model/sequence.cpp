@@ -30,7 +30,7 @@ void Card::sample(const Lines& lines, Instant now) {
     const std::uint32_t address = lines.level(Line::addr);
     if (takes && !read_off) put_word(state_.buffers.current(), state_.word, address, lines.level(Line::data));
     if (!settings_.verify_lines) return;
-    const bool clock_wrong = is_host() && lines.level(Line::clk) != state_.clk;
+    const bool clock_wrong = is_host() && lines.level(Line::clk) != lines_.clk();
     const bool line_wrong = clock_wrong || (takes ? lines.level(Line::hold) == 0 : !read_off);
     if (!takes) {
         if (line_wrong) spoil(line_faults, bad_lines);
@@ -61,7 +61,7 @@ void Card::advance(Instant now) {
     }
     if (state_.state_ends == now) enter(after(state_.fsm, state_.word + 1 < settings_.scales), now);
     if (state_.starts == now) begin(now);
-    if (pulses_.fall() == now) state_.clk = 0, pulses_.set_fall(never);
+    if (pulses_.fall() == now) lines_.set_clk(0), pulses_.set_fall(never);
     if (pulses_.next() == now) pulse(now);
     check_stale(now);
 }
@@ -72,7 +72,7 @@ void Card::clock_rose(Instant now) {
         --state_.miss;
         return;
     }
-    state_.quiet = 0;
+    lines_.wake();
     pulses_.note_edge(now);
     if (!idle()) return errors_.count_overrun(pulses_.sequence());
     if (state_.late == Duration{0}) return begin(now);
@@ -80,8 +80,8 @@ void Card::clock_rose(Instant now) {
 }
 
 void Card::pulse(Instant now) {
-    state_.quiet = 0;
-    state_.clk = 1;
+    lines_.wake();
+    lines_.set_clk(1);
     pulses_.set_fall(now + settings_.period / 2);
     pulses_.note_edge(now);
     pulses_.advance();
@@ -111,26 +111,17 @@ void Card::enter(State state, Instant now) {
     const State before = state_.fsm;
     state_.fsm = state;
     state_.state_ends = state == State::S0 ? never : now + time_in(settings_.timing, state);
+    lines_.enter(state);
     switch (state) {
         case State::S0:
-            state_.hold = 0;
-            state_.addr = rest_of(Line::addr);
             state_.word = 0;
-            break;
-        case State::S1:
-            state_.hold = 1;
             break;
         case State::S7:
             ++state_.word;
             break;
         case State::S2:
         case State::S8:
-            state_.read_n = 0;
-            state_.asks = 1;  // the address follows when READ is sampled low: Bus::give_addresses
-            break;
-        case State::S4:
-        case State::S10:
-            state_.read_n = 1;
+            state_.asks = 1;
             break;
         case State::S12:
             publish(now, nullptr);
@@ -139,21 +130,6 @@ void Card::enter(State state, Instant now) {
             break;
     }
     if (before != state) show();
-}
-
-void Card::drive(Lines& lines, int driver) const {
-    const bool silent = state_.off != 0 || state_.quiet != 0;
-    const auto put = [&](Line line, bool out, std::uint32_t value) {
-        if (out && !silent)
-            lines.drive(line, driver, value);
-        else
-            lines.leave(line, driver);
-    };
-    const bool host = is_host();  // a slave's logic leaves these pins open
-    put(Line::clk, settings_.clock_out(), host ? state_.clk : 0);
-    put(Line::hold, settings_.clock_out(), host ? state_.hold : 0);
-    put(Line::read_n, settings_.clock_out(), host ? state_.read_n : 1);
-    put(Line::addr, settings_.address_out(), host ? state_.addr : rest_of(Line::addr));
 }
 
 // ---- frames
@@ -242,8 +218,7 @@ void Card::take_up(Instant start, const Latched& latched, Instant now) {
     state_.fsm = m.state;
     state_.word = m.word;
     state_.state_ends = start + m.until;
-    const Outputs out = outputs_of(m, settings_);
-    state_.hold = out.hold, state_.read_n = out.read_n, state_.addr = out.addr;
+    lines_.take(outputs_of(m, settings_));
 }
 
 Moment Card::moment() const {

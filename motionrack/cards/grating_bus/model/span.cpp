@@ -16,7 +16,7 @@ bool Bus::regular() const {
     const Instant next_period = first.pulses_.grid() + host().period;
     if (first.pulses_.next() + host().timing.frame_time(host().scales) >= next_period)
         return false;  // the next pulse may come too soon
-    return state_.span != 0 || (state_.lines.level(Line::clk) == 0 && first.state_.quiet == 0);
+    return state_.span != 0 || (state_.lines.level(Line::clk) == 0 && !first.lines_.quiet());
 }
 
 void Bus::begin_span(Instant now) {
@@ -28,7 +28,7 @@ void Bus::begin_span(Instant now) {
     for (Card* card : cards_) {
         card->check_stale(now);
         if (card->is_remote()) continue;
-        card->state_.quiet = 0;
+        card->lines_.wake();
         card->pulses_.note_edge(now);
         if (card->is_host()) card->pulses_.advance();
         card->report_begin(now);
@@ -88,7 +88,7 @@ void Bus::interrupt_span(Instant now) {
     state_.clk_was = span_level(Line::clk, now);
     state_.span = 0;
     Card& first = *cards_[static_cast<std::size_t>(host_)];
-    first.state_.clk = state_.clk_was;
+    first.lines_.set_clk(state_.clk_was);
     first.pulses_.set_fall(state_.clk_was != 0 ? state_.start + host().period / 2 : never);
     for (std::size_t i = 0; i < cards_.size(); ++i) {
         cards_[i]->take_up(state_.start, decoder.state_.latched, now);
