@@ -148,7 +148,7 @@ void Bus::look_again(Instant now) {
 void Bus::schedule() {
     Instant next = state_.span != 0 && state_.published == 0 ? state_.done : never;
     if (state_.span != 0) {
-        for (const Card* card : cards_) next = std::min(next, std::min(card->pulses_.next(), card->state_.stale_at));
+        for (const Card* card : cards_) next = std::min(next, std::min(card->pulses_.next(), card->age_.next()));
     } else {
         for (const Card* card : cards_) next = std::min(next, card->next());
         for (const Decoder* decoder : decoders_) next = std::min(next, decoder->state_.output);

@@ -12,7 +12,8 @@ Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSet
       id_(kernel.add(*this, sim::Phase::cards, name)),
       errors_(state_.errors, kernel, id_),
       pulses_(state_.pulses, state_.sequence, state_.jitter, settings_, errors_),
-      lines_(state_.outputs, settings_) {
+      lines_(state_.outputs, settings_),
+      age_(state_.age, state_.stale, settings_, errors_) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     state_wire_ = kernel.add_wire(name + ".state", 0, 4);
     done_wire_ = kernel.add_wire(name + ".frame_done", 0);
@@ -21,7 +22,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSet
         outputs_[static_cast<std::size_t>(n)] = kernel.add_wire(name + ".vout" + std::to_string(n), 0);
     kernel.drive_lazily(state_wire_, id_, state_pin);
     kernel.drive_lazily(done_wire_, id_, done_pin);
-    state_.stale_at = 2 * settings.period;
+    age_.begin();
     if (is_host()) pulses_.begin();
     bus.plug(*this);
 }
@@ -61,8 +62,7 @@ void Card::reset() {
     CardState begun;
     begun.buffers = state_.buffers;
     begun.fresh = state_.fresh;
-    begun.stale = state_.stale, begun.stale_at = state_.stale_at;
-    begun.held_since = state_.held_since, begun.published_sequence = state_.published_sequence, begun.any = state_.any;
+    begun.stale = state_.stale, begun.age = state_.age;
     begun.pulses.number = state_.pulses.number, begun.pulses.next = state_.pulses.next;
     begun.miss = state_.miss, begun.late = state_.late, begun.jitter = state_.jitter;
     begun.off = state_.off;

@@ -8,6 +8,7 @@
 #include <array>
 #include <motionrack/cards/grating_bus/model/card_state.hpp>
 #include <motionrack/cards/grating_bus/model/error_counters.hpp>
+#include <motionrack/cards/grating_bus/model/frame_age.hpp>
 #include <motionrack/cards/grating_bus/model/frame_pulses.hpp>
 #include <motionrack/cards/grating_bus/model/line_outputs.hpp>
 #include <motionrack/cards/grating_bus/model/lines.hpp>
@@ -56,9 +57,9 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     bool is_remote() const { return settings_.role == CardRole::remote; }
     /// The frame published last; nullptr: none yet, or it is being overwritten.
     const Frame* last() const { return state_.buffers.last(); }
-    bool stale() const { return state_.stale != 0; }
+    bool stale() const { return age_.stale(); }
     /// Instant from which the frame published last ages: its time; on a remote card, its arrival.
-    Instant held_since() const { return state_.held_since; }
+    Instant held_since() const { return age_.held_since(); }
     bool off() const { return state_.off != 0; }
     Moment moment() const;
     /// Counters of published frames, bad frames and errors.
@@ -111,7 +112,6 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void enter(State state, Instant now);
     void pulse(Instant now);
     void spoil(ErrorCounter why, std::uint8_t bad);
-    void check_stale(Instant now);
     void set_fresh(bool fresh);
     void reset();
     void show();
@@ -124,6 +124,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     ErrorCounters errors_;
     FramePulses pulses_;
     LineOutputs lines_;
+    FrameAge age_;
     sim::WireId state_wire_{}, done_wire_{}, int_wire_{};
     std::array<sim::WireId, output_count> outputs_{};
     std::vector<FrameListener*> listeners_;

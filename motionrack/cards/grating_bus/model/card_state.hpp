@@ -48,6 +48,13 @@ struct LineOutputsState {
     std::uint32_t quiet = 0;  ///< in reset: all outputs are off
 };
 
+struct FrameAgeState {
+    Instant stale_at = never;
+    Instant held_since{};  ///< age origin of the frame published last: its time; on a remote card, its arrival
+    std::uint32_t published_sequence = 0;
+    std::uint32_t any = 0;  ///< a frame was published
+};
+
 struct CardState {
     sim::PingPong<Frame> buffers;
     // the sequence
@@ -66,10 +73,7 @@ struct CardState {
     // outputs through the shifters
     LineOutputsState outputs;
     std::uint32_t off = 0;
-    Instant stale_at = never;
-    Instant held_since{};  ///< age origin of the frame published last: its time; on a remote card, its arrival
-    std::uint32_t published_sequence = 0;
-    std::uint32_t any = 0;        ///< a frame was published
+    FrameAgeState age;
     std::uint32_t bad_word = 0;   ///< the present word was counted as bad
     std::uint32_t asks = 0;       ///< a host has pulled READ low and not yet sampled it
     std::uint16_t other = 0;      ///< 1 + the first word of the frame whose scale differs from the card's list

@@ -15,9 +15,9 @@ void put_word(Frame& frame, int k, std::uint32_t address, std::uint32_t count) {
 }  // namespace
 
 Instant Card::next() const {
-    if (state_.off != 0) return std::min(pulses_.next(), state_.stale_at);
+    if (state_.off != 0) return std::min(pulses_.next(), age_.next());
     return std::min(std::min(std::min(state_.state_ends, state_.starts), std::min(pulses_.next(), pulses_.fall())),
-                    state_.stale_at);
+                    age_.next());
 }
 
 // ---- the order of an instant: sample, advance, clock_rose
@@ -57,13 +57,13 @@ void Card::spoil(ErrorCounter why, std::uint8_t bad) {
 void Card::advance(Instant now) {
     if (state_.off != 0) {  // pulses keep their period
         if (pulses_.next() == now) pulses_.advance();
-        return check_stale(now);
+        return age_.check(now);
     }
     if (state_.state_ends == now) enter(after(state_.fsm, state_.word + 1 < settings_.scales), now);
     if (state_.starts == now) begin(now);
     if (pulses_.fall() == now) lines_.set_clk(0), pulses_.set_fall(never);
     if (pulses_.next() == now) pulse(now);
-    check_stale(now);
+    age_.check(now);
 }
 
 void Card::clock_rose(Instant now) {
@@ -174,11 +174,7 @@ void Card::hand_out(Instant now, Instant since) {
     state_.was_bad = 0;
     state_.buffers.publish();
     ++state_.frames;
-    state_.published_sequence = frame.sequence;
-    state_.held_since = since;
-    state_.any = 1;
-    state_.stale = 0;
-    state_.stale_at = since + 2 * settings_.period;
+    age_.renew(frame.sequence, since);
     set_fresh(true);
     for (FrameListener* listener : listeners_) listener->published(*this, frame, now);
 }
@@ -194,14 +190,6 @@ void Card::take(const Frame& frame, Instant now) {
         hand_out(now, now);
     }
     bus_.look_again(now);
-}
-
-void Card::check_stale(Instant now) {
-    if (state_.stale_at > now) return;
-    state_.stale_at = never;
-    state_.stale = 1;
-    errors_.report(BusCondition::stale, state_.any != 0 ? std::int64_t{state_.published_sequence} : -1,
-                   state_.held_since.count());
 }
 
 // ---- whole frames

@@ -26,7 +26,7 @@ void Bus::begin_span(Instant now) {
     state_.start = now;
     state_.done = now + host().timing.frame_time(host().scales) - host().timing.clock;
     for (Card* card : cards_) {
-        card->check_stale(now);
+        card->age_.check(now);
         if (card->is_remote()) continue;
         card->lines_.wake();
         card->pulses_.note_edge(now);
