@@ -134,7 +134,8 @@ bool Bus::give_addresses() {
         s.asks = 0;
         if (!card->is_host()) continue;
         looked = true;
-        if (state_.lines.level(Line::read_n) == 0) card->lines_.set_address(card->settings().address(s.word));
+        if (state_.lines.level(Line::read_n) == 0)
+            card->lines_.set_address(card->settings().address(card->frames_.word()));
     }
     return looked;
 }

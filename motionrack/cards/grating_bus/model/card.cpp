@@ -13,7 +13,8 @@ Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSet
       errors_(state_.errors, kernel, id_),
       pulses_(state_.pulses, state_.sequence, state_.jitter, settings_, errors_),
       lines_(state_.outputs, settings_),
-      age_(state_.age, state_.stale, settings_, errors_) {
+      age_(state_.age, state_.stale, settings_, errors_),
+      frames_(state_, settings_, errors_) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     state_wire_ = kernel.add_wire(name + ".state", 0, 4);
     done_wire_ = kernel.add_wire(name + ".frame_done", 0);
@@ -58,7 +59,7 @@ void Card::set_fresh(bool fresh) {
 
 // The buffers, the claim and the frame age survive a reset.
 void Card::reset() {
-    if (state_.buffers.begun()) state_.buffers.abandon();
+    frames_.abandon();
     CardState begun;
     begun.buffers = state_.buffers;
     begun.fresh = state_.fresh;

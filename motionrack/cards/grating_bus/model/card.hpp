@@ -9,6 +9,7 @@
 #include <motionrack/cards/grating_bus/model/card_state.hpp>
 #include <motionrack/cards/grating_bus/model/error_counters.hpp>
 #include <motionrack/cards/grating_bus/model/frame_age.hpp>
+#include <motionrack/cards/grating_bus/model/frame_assembler.hpp>
 #include <motionrack/cards/grating_bus/model/frame_pulses.hpp>
 #include <motionrack/cards/grating_bus/model/line_outputs.hpp>
 #include <motionrack/cards/grating_bus/model/lines.hpp>
@@ -22,9 +23,6 @@ namespace motionrack::grating_bus {
 
 class Bus;
 class Card;
-
-/// Counts of all scales of a decoder, by address.
-using Latched = std::array<std::uint32_t, max_scales>;
 
 /// Listener for every frame of a card; it runs in virtual time.
 class FrameListener {
@@ -56,14 +54,14 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     bool is_host() const { return settings_.role == CardRole::host; }
     bool is_remote() const { return settings_.role == CardRole::remote; }
     /// The frame published last; nullptr: none yet, or it is being overwritten.
-    const Frame* last() const { return state_.buffers.last(); }
+    const Frame* last() const { return frames_.last(); }
     bool stale() const { return age_.stale(); }
     /// Instant from which the frame published last ages: its time; on a remote card, its arrival.
     Instant held_since() const { return age_.held_since(); }
     bool off() const { return state_.off != 0; }
     Moment moment() const;
     /// Counters of published frames, bad frames and errors.
-    std::uint32_t frames() const { return state_.frames; }
+    std::uint32_t frames() const { return frames_.published(); }
     using enum ErrorCountersState::Counter;
     std::uint16_t counter(ErrorCounter which) const { return errors_[which]; }
 
@@ -99,11 +97,8 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void report_begin(Instant now) {
         for (FrameListener* listener : listeners_) listener->began(*this, now);
     }
-    void begin_frame(Instant now);
-    void put_words(const Latched& latched, int words);
+    /// Ends the present frame. `like`: a frame with the same counts and a known CRC, or nullptr.
     void publish(Instant now, const Frame* like);
-    /// Drops the present frame as bad. `why`: bits of BadFrame.
-    void give_up(std::uint32_t sequence, std::uint8_t why);
     /// Publishes the current buffer; its age counts from `since`.
     void hand_out(Instant now, Instant since);
     /// Continues a frame that began at `start` from its state at `now`.
@@ -111,7 +106,6 @@ class Card final : public sim::Device, public sim::RegisterDevice {
 
     void enter(State state, Instant now);
     void pulse(Instant now);
-    void spoil(ErrorCounter why, std::uint8_t bad);
     void set_fresh(bool fresh);
     void reset();
     void show();
@@ -125,6 +119,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     FramePulses pulses_;
     LineOutputs lines_;
     FrameAge age_;
+    FrameAssembler frames_;
     sim::WireId state_wire_{}, done_wire_{}, int_wire_{};
     std::array<sim::WireId, output_count> outputs_{};
     std::vector<FrameListener*> listeners_;

@@ -82,7 +82,7 @@ std::uint16_t Card::peek(std::uint32_t at) const {
     static constexpr Frame nothing{};
     if (is_count(at) || is_address(at, addresses_at) ||
         (at >= offset("SEQUENCE_L") && at <= offset("CRC_H") && at % 2 == 0)) {
-        const Frame* held = state_.buffers.held();
+        const Frame* held = frames_.held();
         return frame_word(held ? *held : nothing, at);
     }
     if (at >= offset("BROKEN") && at <= offset("OVERRUN") && at % 2 == 0) return errors_[(at - offset("BROKEN")) / 2];
@@ -102,7 +102,7 @@ std::uint16_t Card::peek(std::uint32_t at) const {
                           {CHECKS, s.verify_lines}});
         case offset("STATUS"):
             return flags({{FRAME, state_.fresh != 0},
-                          {CLAIMED, state_.buffers.held() != nullptr},
+                          {CLAIMED, frames_.held() != nullptr},
                           {STALE, stale()},
                           {DIRECTION, s.wrong_direction()},
                           {BUSY, m.state != State::S0},
@@ -126,9 +126,9 @@ std::uint16_t Card::peek(std::uint32_t at) const {
         case offset("PERIOD_H"):
             return low(static_cast<std::uint64_t>(s.period.count()), 1);
         case offset("FRAMES_L"):
-            return low(state_.frames);
+            return low(frames());
         case offset("FRAMES_H"):
-            return low(state_.frames, 1);
+            return low(frames(), 1);
         default:
             return 0xFFFF;
     }
@@ -145,10 +145,10 @@ void Card::write(std::uint32_t at, std::uint16_t value) {
     if (at != offset("CONTROL")) return errors_.report(BusCondition::no_register, at, value);
     if (CLAIM.test(value) || RELEASE.test(value)) bus_.leave_frame(kernel_.now());
     if (CLAIM.test(value)) {
-        state_.buffers.claim();
+        frames_.claim();
         set_fresh(false);
     }
-    if (RELEASE.test(value)) state_.buffers.release();
+    if (RELEASE.test(value)) frames_.release();
     if (CLEAR.test(value)) errors_.clear();
     if (!RESET.test(value) || off()) return;
     bus_.interrupt_span(kernel_.now());

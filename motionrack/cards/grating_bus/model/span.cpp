@@ -40,8 +40,8 @@ void Bus::publish_span(Instant now) {
     Decoder::State& decoder = decoders_[0]->state_;
     for (Card* card : cards_) {
         if (card->is_remote()) continue;
-        card->begin_frame(state_.start);
-        card->put_words(decoder.latched, host().scales);
+        card->frames_.begin(state_.start, card->pulses_.sequence());
+        card->frames_.put_words(decoder.latched, host().scales);
         card->publish(now, like);
         like = card->last();
     }
