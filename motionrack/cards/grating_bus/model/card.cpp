@@ -1,5 +1,4 @@
 // Construction, wires and faults.
-#include <algorithm>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 #include <motionrack/cards/grating_bus/model/card.hpp>
 
@@ -14,15 +13,9 @@ Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSet
       pulses_(state_.pulses, state_.sequence, state_.jitter, settings_, errors_),
       lines_(state_.outputs, settings_),
       age_(state_.age, state_.stale, settings_, errors_),
-      frames_(state_, settings_, errors_) {
+      frames_(state_, settings_, errors_),
+      wires_(kernel, id_, name, state_.fresh) {
     MOTIONRACK_ASSERT(check(settings).has_value());
-    state_wire_ = kernel.add_wire(name + ".state", 0, 4);
-    done_wire_ = kernel.add_wire(name + ".frame_done", 0);
-    int_wire_ = kernel.add_wire(name + ".int_n", 1);
-    for (int n = 0; n < output_count; ++n)
-        outputs_[static_cast<std::size_t>(n)] = kernel.add_wire(name + ".vout" + std::to_string(n), 0);
-    kernel.drive_lazily(state_wire_, id_, state_pin);
-    kernel.drive_lazily(done_wire_, id_, done_pin);
     age_.begin();
     if (is_host()) pulses_.begin();
     bus.plug(*this);
@@ -32,27 +25,11 @@ Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSet
 
 int Card::level_at(int pin, Instant) const {
     const State state = moment().state;
-    return pin == state_pin ? static_cast<int>(state) : state == State::S12;
+    return pin == CardWires::state_pin ? static_cast<int>(state) : state == State::S12;
 }
 
 void Card::wanted_changed(int, bool wanted, Instant now) {
     bus_.wanted(wanted, now);
-}
-
-void Card::put_out(int output, int microvolts) {
-    kernel_.set_wire(outputs_[static_cast<std::size_t>(output)], std::clamp(microvolts, -10'000'000, 10'000'000));
-}
-
-void Card::show() {
-    if (kernel_.wanted(state_wire_)) kernel_.set_wire(state_wire_, static_cast<int>(state_.fsm));
-    if (kernel_.wanted(done_wire_)) kernel_.set_wire(done_wire_, state_.fsm == State::S12);
-}
-
-void Card::set_fresh(bool fresh) {
-    if (fresh == (state_.fresh != 0)) return;
-    state_.fresh = fresh;
-    kernel_.set_wire(int_wire_, fresh ? 0 : 1);
-    if (fresh) kernel_.break_run();
 }
 
 // ---- reset and faults
@@ -69,7 +46,7 @@ void Card::reset() {
     begun.off = state_.off;
     begun.outputs.quiet = 1;
     state_ = begun;
-    show();
+    wires_.show(state_.fsm);
 }
 
 bool Card::fault(std::string_view name, double value, Instant now) {

@@ -5,8 +5,8 @@
 // The bus steps the card, or, in undisturbed operation, passes whole frames to it.
 #pragma once
 
-#include <array>
 #include <motionrack/cards/grating_bus/model/card_state.hpp>
+#include <motionrack/cards/grating_bus/model/card_wires.hpp>
 #include <motionrack/cards/grating_bus/model/error_counters.hpp>
 #include <motionrack/cards/grating_bus/model/frame_age.hpp>
 #include <motionrack/cards/grating_bus/model/frame_assembler.hpp>
@@ -50,7 +50,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     // ---- inspection
     const CardSettings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
-    sim::WireId interrupt_wire() const { return int_wire_; }
+    sim::WireId interrupt_wire() const { return wires_.interrupt(); }
     bool is_host() const { return settings_.role == CardRole::host; }
     bool is_remote() const { return settings_.role == CardRole::remote; }
     /// The frame published last; nullptr: none yet, or it is being overwritten.
@@ -69,7 +69,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     /// CRC or a wrong number of scales is bad.
     void take(const Frame& frame, Instant now);
     /// Sets the analog output (0 .. 3) to `microvolts`, +-10 V at most.
-    void put_out(int output, int microvolts);
+    void put_out(int output, int microvolts) { wires_.put_out(output, microvolts); }
 
     void add_listener(FrameListener& listener) { listeners_.push_back(&listener); }
 
@@ -81,7 +81,6 @@ class Card final : public sim::Device, public sim::RegisterDevice {
 
   private:
     friend class Bus;
-    enum Pin { state_pin, done_pin };
 
     bool idle() const { return state_.fsm == State::S0 && state_.starts == never; }
     /// Next instant at which the card is due.
@@ -106,9 +105,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
 
     void enter(State state, Instant now);
     void pulse(Instant now);
-    void set_fresh(bool fresh);
     void reset();
-    void show();
 
     sim::Kernel& kernel_;
     CardSettings settings_;
@@ -120,8 +117,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     LineOutputs lines_;
     FrameAge age_;
     FrameAssembler frames_;
-    sim::WireId state_wire_{}, done_wire_{}, int_wire_{};
-    std::array<sim::WireId, output_count> outputs_{};
+    CardWires wires_;
     std::vector<FrameListener*> listeners_;
 };
 

@@ -101,7 +101,7 @@ std::uint16_t Card::peek(std::uint32_t at) const {
                           {ADDRESS_OUT, s.address_out()},
                           {CHECKS, s.verify_lines}});
         case offset("STATUS"):
-            return flags({{FRAME, state_.fresh != 0},
+            return flags({{FRAME, wires_.fresh()},
                           {CLAIMED, frames_.held() != nullptr},
                           {STALE, stale()},
                           {DIRECTION, s.wrong_direction()},
@@ -146,7 +146,7 @@ void Card::write(std::uint32_t at, std::uint16_t value) {
     if (CLAIM.test(value) || RELEASE.test(value)) bus_.leave_frame(kernel_.now());
     if (CLAIM.test(value)) {
         frames_.claim();
-        set_fresh(false);
+        wires_.set_fresh(false);
     }
     if (RELEASE.test(value)) frames_.release();
     if (CLEAR.test(value)) errors_.clear();

@@ -101,7 +101,7 @@ void Card::enter(State state, Instant now) {
         default:
             break;
     }
-    if (before != state) show();
+    if (before != state) wires_.show(state_.fsm);
 }
 
 // ---- frames
@@ -113,7 +113,7 @@ void Card::publish(Instant now, const Frame* like) {
 void Card::hand_out(Instant now, Instant since) {
     const Frame& frame = frames_.publish();
     age_.renew(frame.sequence, since);
-    set_fresh(true);
+    wires_.set_fresh(true);
     for (FrameListener* listener : listeners_) listener->published(*this, frame, now);
 }
 
