@@ -56,7 +56,7 @@ void remove_unless_private(const std::string& path) {
 
 }  // namespace
 
-Result<NewFile> NewFile::create(const std::string& path, Part part, Rights rights) {
+Result<NewFile> NewFile::create(const std::string& path, Incomplete part, Rights rights) {
     if (is_device(path)) return create_in_place(path);
     struct stat old {};
     const bool there = ::lstat(path.c_str(), &old) == 0;
@@ -72,7 +72,7 @@ Result<NewFile> NewFile::create(const std::string& path, Part part, Rights right
         ::open(out.made_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, rights == Rights::owner ? 0600 : 0666);
     if (out.file_ < 0) return reason(errno);
     if (!lock(out.file_) || !is_still_there(out.file_, out.made_)) {
-        out.part_ = Part::keep;  // it belongs to another program
+        out.part_ = Incomplete::keep;  // it belongs to another program
         return fail(ErrorKind::io, "another program is writing it");
     }
     if (::ftruncate(out.file_, 0) != 0) return reason(errno);
@@ -84,7 +84,7 @@ Result<NewFile> NewFile::create(const std::string& path, Part part, Rights right
 Result<NewFile> NewFile::create_in_place(const std::string& path) {
     NewFile out;
     out.path_ = out.made_ = path;
-    out.part_ = Part::keep;
+    out.part_ = Incomplete::keep;
     out.file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (out.file_ < 0) return reason(errno);
     return out;
@@ -92,7 +92,7 @@ Result<NewFile> NewFile::create_in_place(const std::string& path) {
 
 NewFile::~NewFile() {
     if (file_ < 0) return;
-    if (part_ == Part::remove) (void)::unlink(made_.c_str());
+    if (part_ == Incomplete::remove) (void)::unlink(made_.c_str());
     (void)close();
 }
 
@@ -178,7 +178,7 @@ Result<void> NewFile::reported(std::string_view kind) const {
 }
 
 Result<void> write_whole(const std::string& path, std::string_view bytes, Rights rights) {
-    MOTIONRACK_TRY(NewFile file, NewFile::create(path, NewFile::Part::remove, rights));
+    MOTIONRACK_TRY(NewFile file, NewFile::create(path, NewFile::Incomplete::remove, rights));
     (void)file.write(bytes);
     return file.commit();
 }

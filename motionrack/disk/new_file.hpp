@@ -26,7 +26,7 @@ enum class Rights : std::uint8_t {
 
 class NewFile {
   public:
-    enum class Part : std::uint8_t { remove, keep };  ///< handling of an incomplete file
+    enum class Incomplete : std::uint8_t { remove, keep };  ///< what becomes of an incomplete file
 
     NewFile() = default;
     NewFile(NewFile&& other) noexcept { swap(other); }
@@ -40,7 +40,8 @@ class NewFile {
     ~NewFile();
 
     /// Errors: io. The message is the reason alone, "No space left on device", for the caller's sentence.
-    static Result<NewFile> create(const std::string& path, Part part = Part::remove, Rights rights = Rights::usual);
+    static Result<NewFile> create(const std::string& path, Incomplete part = Incomplete::remove,
+                                  Rights rights = Rights::usual);
     /// As create() for a log, which must exist from its first line: writes in place.
     static Result<NewFile> create_in_place(const std::string& path);
 
@@ -59,8 +60,8 @@ class NewFile {
     /// First error as a reason; empty: none.
     const std::string& trouble() const { return trouble_; }
     /// From now on, keeps an incomplete file under path_until_whole().
-    void keep_part() { part_ = Part::keep; }
-    bool is_part_kept() const { return part_ == Part::keep; }
+    void keep_part() { part_ = Incomplete::keep; }
+    bool is_part_kept() const { return part_ == Incomplete::keep; }
     /// Syncs the file, verifies it against the written bytes, and renames it. Errors: io with the reason alone; a retry
     /// is allowed. After success, later calls do nothing.
     Result<void> commit();
@@ -75,7 +76,7 @@ class NewFile {
 
     int file_ = -1;
     std::string path_, made_, trouble_;  ///< final path; path while incomplete (equal for a device); error
-    Part part_ = Part::remove;
+    Incomplete part_ = Incomplete::remove;
     std::uint64_t written_ = 0;
     unsigned long checksum_ = 0;  ///< CRC-32 of the bytes written here
 };

@@ -62,7 +62,7 @@ std::vector<Event> events_of(const ReportData& data) {
 }  // namespace
 
 Result<CsvWriter> CsvWriter::create(const std::string& path, const std::vector<std::string>& columns) {
-    return begin(disk::NewFile::create(path, disk::NewFile::Part::keep), path, columns);
+    return begin(disk::NewFile::create(path, disk::NewFile::Incomplete::keep), path, columns);
 }
 
 Result<CsvWriter> CsvWriter::create_log(const std::string& path, const std::vector<std::string>& columns) {

@@ -90,7 +90,7 @@ Result<void> check_unit(Duration unit) {
 Result<VcdWriter> VcdWriter::create(const std::string& path, const VcdSettings& settings) {
     MOTIONRACK_CHECK(check_unit(settings.timescale));
     const std::string timescale = timescale_text(settings.timescale.count());
-    Result<disk::NewFile> file = disk::NewFile::create(path, disk::NewFile::Part::keep);
+    Result<disk::NewFile> file = disk::NewFile::create(path, disk::NewFile::Incomplete::keep);
     if (!file) {
         return fail(ErrorKind::io,
                     fmt::format("The VCD file could not be created: {}. Choose another place.", file.error().message),

@@ -61,7 +61,7 @@ TEST_F(AtomicFile, WithoutACommitLeavesTheOldFile) {
     EXPECT_EQ(text_of(at("a")), "old");
     EXPECT_FALSE(fs::exists(at("a.incomplete")));
     {
-        auto file = NewFile::create(at("a"), NewFile::Part::keep);
+        auto file = NewFile::create(at("a"), NewFile::Incomplete::keep);
         EXPECT_TRUE(file->write("half"));
     }
     EXPECT_EQ(text_of(at("a")), "old");

@@ -33,7 +33,7 @@ class CsvFile {
         if (path.empty()) return {};
         MOTIONRACK_CHECK(disk::may_write({}, {path}));
         path_ = path;
-        Result<disk::NewFile> made = disk::NewFile::create(path, disk::NewFile::Part::keep);
+        Result<disk::NewFile> made = disk::NewFile::create(path, disk::NewFile::Incomplete::keep);
         if (!made) return broken(made.error().message);
         file_ = std::move(*made);
         return {};
