@@ -4,23 +4,15 @@
 //   "X.position_mm"   NAME.QUANTITY; the quantities form a table, and the unit in a name is the axis' own (mm or deg)
 #pragma once
 
-#include <cstdint>
-#include <functional>
+#include <motionrack/rack/part.hpp>
+#include <motionrack/rack/part_catalogue.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace motionrack::rack {
 
-/// A readable quantity of an existing part.
-struct Quantity {
-    std::string name;  ///< name with unit: "position_mm"
-    std::string_view doc;
-    bool whole = false;                      ///< a count, with whole values
-    std::function<double(Instant now)> get;  ///< valid as long as the rack exists
-};
 struct QuantitiesOfPart {
     std::string part;  ///< "X", "line"
     std::vector<Quantity> quantities;
@@ -42,9 +34,8 @@ std::vector<QuantityRange> quantity_ranges(Rack& rack);
 /// Returns the unit at the end of a quantity's name: "mm/s" for "speed_mm_s".
 std::string_view unit_of_quantity(std::string_view name);
 
-enum class PartKind : std::uint8_t { axis, stage, track, scanner };
-/// Declared quantities, whether or not a rack has them: name and description, "{u}" for mm or deg. For reference pages.
-std::vector<std::pair<std::string_view, std::string_view>> declared_quantities(PartKind kind);
+/// Quantities of a kind of part ("axis"), whether or not a rack has them. For reference pages. Empty: an unknown kind.
+std::vector<DeclaredQuantity> declared_quantities(std::string_view kind);
 
 /// Errors: invalid_input if the part or quantity is unknown, listing the available ones.
 Result<double> get_quantity(Rack& rack, std::string_view part_dot_quantity);

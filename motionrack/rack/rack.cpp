@@ -5,6 +5,7 @@
 #include <cmath>
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/grating_card.hpp>
+#include <motionrack/rack/part_catalogue.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/trace_hash_log.hpp>
 
@@ -12,13 +13,14 @@ namespace motionrack::rack {
 
 Rack::Rack(const RackConfig& config) : config_(config) {
     build_cards();
-    build_axes();
+    for (const RackAxis& axis : config_.axes) build_axis(axis);
     for (const RackConveyor& track : config_.tracks) tracks_.push_back(build_track(kernel_, track));
     join_links();
     if (config_.probe) build_probe();
     build_wires();
     build_stages();
     build_scanners();
+    parts_ = make_parts(*this);
     stop_latch_ = std::make_unique<StopLatch>(*this);
     for (const auto& card : cards_) card->host().set_halted_flag(&stop_latch_->halted());
 }
@@ -88,10 +90,6 @@ parts::StepperSettings motor_settings(const RackAxis& axis) {
 }
 
 }  // namespace
-
-void Rack::build_axes() {
-    for (const RackAxis& axis : config_.axes) build_axis(axis);
-}
 
 void Rack::build_axis(const RackAxis& axis) {
     parts::AxisMechanicsSettings settings;

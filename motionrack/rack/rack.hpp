@@ -17,6 +17,7 @@
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/fanout.hpp>
 #include <motionrack/rack/marking.hpp>
+#include <motionrack/rack/part.hpp>
 #include <motionrack/rack/position_functions.hpp>
 #include <motionrack/rack/stage.hpp>
 #include <motionrack/rack/stop_latch.hpp>
@@ -83,6 +84,8 @@ class Rack {
     /// Returns nullptr if the conveyor is unknown.
     RunningConveyor* track(std::string_view name);
     RunningScanner* scanner(std::string_view name);
+    /// All parts of the machine and the cards, in the order of part_kinds().
+    const std::vector<std::unique_ptr<Part>>& parts() const { return parts_; }
     StopLatch& stop_latch() { return *stop_latch_; }
     sim::InputLog& input_log() { return log_; }
     /// Listeners to wire changes.
@@ -111,7 +114,6 @@ class Rack {
   private:
     Result<control::AxisGroup*> positioning_axes(const std::optional<control::Point>& position);
     void build_cards();
-    void build_axes();
     void build_axis(const RackAxis& axis);
     void build_probe();
     void build_stages();
@@ -134,6 +136,7 @@ class Rack {
     std::vector<std::pair<std::string, std::unique_ptr<CardProcessor>>> processors_;  // by card name
     std::vector<RunningConveyor> tracks_;
     std::vector<RunningScanner> scanners_;
+    std::vector<std::unique_ptr<Part>> parts_;
     FixedPosition still_;  // source of a motor whose step input is open
     std::vector<std::unique_ptr<InvertedPosition>> mirrored_;
     std::unique_ptr<sim::WireConnections> junctions_;

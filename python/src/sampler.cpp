@@ -34,7 +34,7 @@ Result<Channel> channel_of(rack::Rack& rack, const rack::WireAccess& context, co
     for (const rack::QuantitiesOfPart& of : rack::quantities_of(rack))
         for (const rack::Quantity& one : of.quantities) {
             if (of.part + '.' + one.name != name) continue;
-            out.whole = one.whole;
+            out.whole = one.whole();
             out.look = [&rack, get = one.get] { return get(rack.kernel().now()); };
         }
     out.count = [look = out.look] { return static_cast<std::int64_t>(std::llround(look())); };

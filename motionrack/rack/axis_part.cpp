@@ -1,0 +1,127 @@
+// An axis as a part: its quantities, and how its position is set by a push of the motor.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/table_part.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+double rotor_pulses(RunningAxis& axis, Instant now) {
+    return static_cast<double>(axis.machine->rotor().count(now));
+}
+
+constexpr std::array<QuantityRow<RunningAxis>, 13> axis_quantities = {{
+    {"position_{u}", "the true position of the table",
+     [](RunningAxis& axis, Instant now) { return axis.machine->position(now); }, ValueKind::measures},
+    {"speed_{u}_s", "velocity of the table by the rotor, signed",
+     [](RunningAxis& axis, Instant now) { return axis.velocity(now); }, ValueKind::measures},
+    {"position_pulses", "the rotor in microsteps since the start", rotor_pulses, ValueKind::whole},
+    {"position_counts", "counts of its encoder since the start",
+     [](RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->encoder().count(now)); },
+     ValueKind::whole, [](const RunningAxis& axis) { return axis.machine->has_encoder(); }},
+    {"pulses", "pulses that came to the motor, + less -",
+     [](RunningAxis& axis, Instant now) {
+         return rotor_pulses(axis, now) + static_cast<double>(axis.machine->lost_steps(now));
+     },
+     ValueKind::whole},
+    {"lost_pulses", "pulses that the rotor did not follow",
+     [](RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->lost_steps(now)); },
+     ValueKind::whole},
+    {"in_step", "1 while the rotor follows the pulses, else 0",
+     [](RunningAxis& axis, Instant) { return axis.machine->in_step() ? 1.0 : 0.0; }, ValueKind::yes_no},
+    {"top_speed_{u}_s", "the peak velocity so far",
+     [](RunningAxis& axis, Instant) { return axis.machine->peak_velocity(); }, ValueKind::measures},
+    {"limit_minus", "1 while the machine is at that switch, independent of its wire",
+     [](RunningAxis& axis, Instant) { return axis.machine->switches().limit_minus().active() ? 1.0 : 0.0; }, ValueKind::yes_no,
+     [](const RunningAxis& axis) { return axis.machine->switches().limit_minus().present(); }},
+    {"limit_plus", "the same for the switch at the + end",
+     [](RunningAxis& axis, Instant) { return axis.machine->switches().limit_plus().active() ? 1.0 : 0.0; }, ValueKind::yes_no,
+     [](const RunningAxis& axis) { return axis.machine->switches().limit_plus().present(); }},
+    {"home", "the same for the home switch",
+     [](RunningAxis& axis, Instant) { return axis.machine->switches().home().active() ? 1.0 : 0.0; }, ValueKind::yes_no,
+     [](const RunningAxis& axis) { return axis.machine->switches().home().present(); }},
+    {"cam", "1 while the machine is on its reference cam",
+     [](RunningAxis& axis, Instant now) { return axis.cam->active(now) ? 1.0 : 0.0; }, ValueKind::yes_no,
+     [](const RunningAxis& axis) { return axis.cam != nullptr; }},
+    {"drive_v", "the voltage at the servo amplifier", [](RunningAxis& axis, Instant) { return axis.servo->volts(); },
+     ValueKind::measures, [](const RunningAxis& axis) { return axis.servo != nullptr; }},
+}};
+
+/// A quantity that a push of the motor sets.
+struct PushRow {
+    std::string_view quantity;
+    /// Returns the microsteps by which to push to bring the axis to `value`.
+    double (*microsteps)(RunningAxis& axis, double value, Instant now);
+};
+constexpr PushRow pushes[] = {
+    {"position_{u}",
+     [](RunningAxis& axis, double value, Instant now) {
+         return (value - axis.machine->position(now)) / axis.machine->units_per_pulse();
+     }},
+    {"position_pulses", [](RunningAxis& axis, double value, Instant now) { return value - rotor_pulses(axis, now); }},
+};
+
+class AxisPart final : public TablePart<RunningAxis> {
+  public:
+    explicit AxisPart(RunningAxis& axis)
+        : TablePart(std::string(1, axis.config.letter), axis.config.unit(), axis, axis_quantities) {}
+
+    std::string subject() const override { return "Axis " + name(); }
+    /// Returns the range that a push can reach, symmetrical to both sides.
+    std::optional<QuantityLimits> limits_to_set(std::string_view quantity_name, Instant now) override {
+        const PushRow* row = push_of(quantity_name);
+        if (row == nullptr) return std::nullopt;
+        const double here = *quantity(quantity_name, now);
+        const double farthest = std::fabs(max_push / row->microsteps(running_, here + 1, now));
+        return QuantityLimits{here - farthest, here + farthest};
+    }
+    Result<std::string> fault_to_set(std::string_view quantity_name, double value, Instant now) override;
+
+  private:
+    const PushRow* push_of(std::string_view quantity_name) const {
+        for (const PushRow& row : pushes)
+            if (with_unit(row.quantity, running_.config.unit()) == quantity_name) return &row;
+        return nullptr;
+    }
+};
+
+Result<std::string> AxisPart::fault_to_set(std::string_view quantity_name, double value, Instant now) {
+    if (!quantity(quantity_name, now)) return no_such_quantity(quantity_name);
+    const std::string full = full_name(quantity_name);
+    const PushRow* row = push_of(quantity_name);
+    if (row == nullptr)
+        return fail(
+            ErrorKind::refused,
+            fmt::format("{} follows from the machine and cannot be set; set the position. Nothing was done.", full));
+    if (!std::isfinite(value))
+        return fail(ErrorKind::refused,
+                    fmt::format("{} cannot become {}: that is not a number. Nothing was done.", full, value));
+    const double push = row->microsteps(running_, value, now);
+    if (!(std::fabs(push) <= max_push))
+        return fail(ErrorKind::refused,
+                    fmt::format("To bring {} to {} the motor must be pushed by {:.0f} microsteps; the limit is {:.0f}. "
+                                "Nothing was done.",
+                                full, value, push, max_push));
+    // A rotor in step springs back unless it is pushed past the middle of an electrical cycle.
+    const parts::AxisMechanics& machine = *running_.machine;
+    const double min_push =
+        machine.in_step() && !running_.servo ? 2.0 * static_cast<double>(machine.settings().motor.microsteps) : 0.5;
+    if (std::fabs(push) < min_push) return std::string();
+    return fmt::format("motor.push={:.0f}", push);
+}
+
+void add_axis_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
+    for (RunningAxis& axis : rack.axes()) parts.push_back(std::make_unique<AxisPart>(axis));
+}
+
+}  // namespace
+
+constinit const PartKind axis_part_kind = {"axis", add_axis_parts, declared<axis_quantities>};
+
+}  // namespace motionrack::rack

@@ -1,0 +1,69 @@
+// A part of the running machine, or a card, as those see it that know it by its name alone: its quantities.
+//
+//   rack file ──► Rack ──parts()──► Part "X", "motion", "stage_x", "line" ──► quantities of the whole rack
+//                                    ▲
+//   part_catalogue.cpp: one line per kind of part, which names its table
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <motionrack/base/result.hpp>
+#include <motionrack/base/time.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rack {
+
+enum class ValueKind : std::uint8_t {
+    measures,  ///< any number
+    whole,     ///< any whole number
+    amount,    ///< a whole number >= 0
+    yes_no     ///< 1 or 0
+};
+
+/// A readable quantity of an existing part.
+struct Quantity {
+    std::string name;  ///< name with unit: "position_mm"
+    std::string_view doc;
+    ValueKind values = ValueKind::measures;
+    std::function<double(Instant now)> get;  ///< valid as long as the rack exists
+
+    /// Returns true if it is a count, with whole values.
+    bool whole() const { return values != ValueKind::measures; }
+};
+
+/// Limits of the values to which a quantity can be set.
+struct QuantityLimits {
+    double min = 0, max = 0;
+};
+
+class Part {
+  public:
+    virtual ~Part() = default;
+    /// Name in the rack file: "X", "line".
+    virtual const std::string& name() const = 0;
+    /// Name as the subject of a sentence: "Axis X".
+    virtual std::string subject() const { return name(); }
+    /// Returns true for a card: it is not part of the machine, and its quantities follow those of all parts.
+    virtual bool is_card() const { return false; }
+
+    /// Existing quantities, in the order of their table.
+    virtual std::vector<Quantity> quantities() = 0;
+    /// Returns the value of one, or nothing if the part does not have it.
+    virtual std::optional<double> quantity(std::string_view quantity_name, Instant now) = 0;
+    /// Returns nothing if the quantity cannot be set.
+    virtual std::optional<QuantityLimits> limits_to_set(std::string_view quantity_name, Instant now);
+    /// Returns the fault ("motor.push=12") that sets the quantity; empty: it has the value already. Errors:
+    /// invalid_input if the quantity is unknown; refused if it cannot be set, or not to that value.
+    virtual Result<std::string> fault_to_set(std::string_view quantity_name, double value, Instant now);
+    /// Builds the error that lists the quantities of the part.
+    tl::unexpected<Error> no_such_quantity(std::string_view quantity_name);
+
+  protected:
+    /// "X.position_mm".
+    std::string full_name(std::string_view quantity_name) const;
+};
+
+}  // namespace motionrack::rack

@@ -1,0 +1,67 @@
+// A stage as a part: its quantities.
+#include <array>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/table_part.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+constexpr double mm_per_nm = 1e-6;
+
+/// Returns true if the stage's control loop is closed by a processor.
+bool has_stage_loop(const RunningStage& stage) {
+    return stage.loop() != nullptr;
+}
+
+constexpr std::array<QuantityRow<RunningStage>, 13> stage_quantities = {{
+    {"position_mm", "the true position of the stage",
+     [](RunningStage& stage, Instant now) { return stage.motor->position_nm(now) * mm_per_nm; }, ValueKind::measures},
+    {"speed_mm_s", "its velocity, signed",
+     [](RunningStage& stage, Instant now) { return stage.motor->velocity(now) * 1e3; }, ValueKind::measures},
+    {"drive_v", "the voltage at its amplifier", [](RunningStage& stage, Instant) { return stage.motor->volts(); },
+     ValueKind::measures},
+    {"scale_mm", "its position by its scale",
+     [](RunningStage& stage, Instant now) {
+         return stage.config.scale.zero_offset_mm + stage.scale->position_nm(now) * mm_per_nm;
+     },
+     ValueKind::measures},
+    {"scale_counts", "counts of its scale",
+     [](RunningStage& stage, Instant now) { return static_cast<double>(stage.scale->count(now)); }, ValueKind::whole},
+    {"lost_counts", "counts that its scale has lost",
+     [](RunningStage& stage, Instant) { return static_cast<double>(stage.scale->lost()); }, ValueKind::amount},
+    {"trusted", "1 while its scale has lost none, else 0",
+     [](RunningStage& stage, Instant) { return stage.scale->counts_valid() ? 1.0 : 0.0; }, ValueKind::yes_no},
+    {"closed", "1 while its loop is closed, else 0",
+     [](RunningStage& stage, Instant) { return stage.loop()->closed() ? 1.0 : 0.0; }, ValueKind::yes_no,
+     has_stage_loop},
+    {"following_nm", "following error at the last frame: commanded - measured",
+     [](RunningStage& stage, Instant) { return stage.loop()->error().last_nm; }, ValueKind::measures, has_stage_loop},
+    {"following_peak_nm", "the peak following error so far, absolute",
+     [](RunningStage& stage, Instant) { return stage.loop()->error().peak_nm; }, ValueKind::measures, has_stage_loop},
+    {"following_rms_nm", "the RMS following error so far",
+     [](RunningStage& stage, Instant) { return stage.loop()->error().rms_nm(); }, ValueKind::measures, has_stage_loop},
+    {"wanted_mm", "its commanded position",
+     [](RunningStage& stage, Instant now) { return stage.wanted(to_seconds(now)).position_nm * mm_per_nm; },
+     ValueKind::measures, has_stage_loop},
+    {"unused_frames", "frames that its loop could not use",
+     [](RunningStage& stage, Instant) { return static_cast<double>(stage.loop()->unused()); }, ValueKind::amount,
+     has_stage_loop},
+}};
+
+class StagePart final : public TablePart<RunningStage> {
+  public:
+    explicit StagePart(RunningStage& stage) : TablePart(stage.config.name, {}, stage, stage_quantities) {}
+
+    std::string subject() const override { return "Stage " + name(); }
+};
+
+void add_stage_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
+    for (RunningStage& stage : rack.stages()) parts.push_back(std::make_unique<StagePart>(stage));
+}
+
+}  // namespace
+
+constinit const PartKind stage_part_kind = {"stage", add_stage_parts, declared<stage_quantities>};
+
+}  // namespace motionrack::rack
