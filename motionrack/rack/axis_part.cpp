@@ -1,4 +1,4 @@
-// An axis as a part: its quantities, and how its position is set by a push of the motor.
+// An axis as a part: its quantities, how its position is set by a push of the motor, and its faults.
 #include <fmt/format.h>
 
 #include <array>
@@ -67,10 +67,75 @@ constexpr PushRow pushes[] = {
     {"position_pulses", [](RunningAxis& axis, double value, Instant now) { return value - rotor_pulses(axis, now); }},
 };
 
+// ---- devices of an axis, for its faults
+
+using AxisDevice = std::optional<sim::DeviceId>;
+
+AxisDevice stepper_of(const RunningAxis& axis) {
+    return axis.servo ? std::nullopt : AxisDevice(axis.machine->id());
+}
+AxisDevice servo_of(const RunningAxis& axis) {
+    return axis.servo ? AxisDevice(axis.servo->id()) : std::nullopt;
+}
+AxisDevice motor_of(const RunningAxis& axis) {
+    return axis.servo ? axis.servo->id() : axis.machine->id();
+}
+AxisDevice encoder_of(const RunningAxis& axis) {
+    return axis.machine->has_encoder() ? AxisDevice(axis.machine->id()) : std::nullopt;
+}
+AxisDevice lines_of(const RunningAxis& axis) {
+    return axis.lines ? AxisDevice(axis.lines->id()) : std::nullopt;
+}
+AxisDevice limit_minus_of(const RunningAxis& axis) {
+    return axis.machine->switches().limit_minus().present() ? AxisDevice(axis.machine->id()) : std::nullopt;
+}
+AxisDevice limit_plus_of(const RunningAxis& axis) {
+    return axis.machine->switches().limit_plus().present() ? AxisDevice(axis.machine->id()) : std::nullopt;
+}
+AxisDevice home_of(const RunningAxis& axis) {
+    return axis.machine->switches().home().present() ? AxisDevice(axis.machine->id()) : std::nullopt;
+}
+
+double counts_per_turn(const RunningAxis& axis) {
+    return static_cast<double>(axis.config.encoder_counts_per_rev);
+}
+double max_dirty_lines(const RunningAxis& axis) {
+    return std::floor((counts_per_turn(axis) - 1) / 4);
+}
+double max_eccentricity(const RunningAxis& axis) {
+    return counts_per_turn(axis) / 7;
+}
+
+constexpr std::array<FaultRow<RunningAxis>, 20> axis_faults = {{
+    {"motor.stall", 0, 1, "", "1: the axle is blocked; 0 releases it", motor_of},
+    {"motor.lose_steps", -max_push, max_push, "pulses",
+     "pulses by which the rotor falls back, rounded to whole electrical cycles", stepper_of},
+    {"motor.push", -max_push, max_push, "microsteps", "microsteps by which the rotor is pushed, approximate", motor_of},
+    {"encoder.broken_a", 0, 1, "", "1: track A reads Low; 0 repairs it", encoder_of},
+    {"encoder.broken_b", 0, 1, "", "1: track B reads Low; 0 repairs it", encoder_of},
+    {"encoder.swapped", 0, 1, "", "1: the tracks are swapped; 0 repairs it", encoder_of},
+    {"limit_minus.stuck_open", 0, 1, "", "1: the switch never acts; 0 repairs it", limit_minus_of},
+    {"limit_minus.stuck_closed", 0, 1, "", "1: the switch always acts; 0 repairs it", limit_minus_of},
+    {"limit_plus.stuck_open", 0, 1, "", "1: the switch never acts; 0 repairs it", limit_plus_of},
+    {"limit_plus.stuck_closed", 0, 1, "", "1: the switch always acts; 0 repairs it", limit_plus_of},
+    {"home.stuck_open", 0, 1, "", "1: the switch never acts; 0 repairs it", home_of},
+    {"home.stuck_closed", 0, 1, "", "1: the switch always acts; 0 repairs it", home_of},
+    {"motor.load", 0, max_factor, "", "ratio of the load to the motor's own inertia", servo_of},
+    {"encoder.inverted_a", 0, 1, "", "1: track A is inverted; 0 repairs it", lines_of},
+    {"encoder.inverted_b", 0, 1, "", "1: track B is inverted; 0 repairs it", lines_of},
+    {"encoder.noise", 0, max_wrong_levels, "levels", "number of wrong levels from now on, 0.5 to 10 us each", lines_of},
+    {"encoder.jitter", 0, max_edge_delay_s, "s", "maximum delay of the edges", lines_of},
+    {"encoder.dirt", 0, 0, "lines", "number of adjacent dirty lines of the disc, which are not read", lines_of,
+     max_dirty_lines},
+    {"encoder.overspeed", 0, max_push, "1/s", "edge rate (1 or more) above which lines are lost; 0 repairs it",
+     lines_of},
+    {"encoder.eccentricity", 0, 0, "counts", "eccentricity of the disc", lines_of, max_eccentricity},
+}};
+
 class AxisPart final : public TablePart<RunningAxis> {
   public:
     explicit AxisPart(RunningAxis& axis)
-        : TablePart(std::string(1, axis.config.letter), axis.config.unit(), axis, axis_quantities) {}
+        : TablePart(std::string(1, axis.config.letter), axis.config.unit(), axis, axis_quantities, axis_faults) {}
 
     std::string subject() const override { return "Axis " + name(); }
     /// Returns the range that a push can reach, symmetrical to both sides.
@@ -122,6 +187,6 @@ void add_axis_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 
 }  // namespace
 
-constinit const PartKind axis_part_kind = {"axis", add_axis_parts, declared<axis_quantities>};
+constinit const PartKind axis_part_kind = {"axis", add_axis_parts, declared<axis_quantities>, names_of<axis_faults>};
 
 }  // namespace motionrack::rack

@@ -1,6 +1,7 @@
-// A belt or rotary table as a part: its quantities, and how its velocity is set.
+// A belt or rotary table as a part: its quantities, how its velocity is set, and its faults.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <motionrack/rack/rack.hpp>
@@ -36,10 +37,46 @@ constexpr std::array<QuantityRow<RunningConveyor>, 6> conveyor_quantities = {{
      ValueKind::whole, [](const RunningConveyor& conveyor) { return conveyor.sensor != nullptr; }},
 }};
 
+using ConveyorDevice = std::optional<sim::DeviceId>;
+
+ConveyorDevice conveyor_drive(const RunningConveyor& conveyor) {
+    return conveyor.drive->id();
+}
+ConveyorDevice conveyor_encoder(const RunningConveyor& conveyor) {
+    return conveyor.encoder ? ConveyorDevice(conveyor.encoder->id()) : std::nullopt;
+}
+ConveyorDevice conveyor_sender(const RunningConveyor& conveyor) {
+    return conveyor.sender ? ConveyorDevice(conveyor.sender->id()) : std::nullopt;
+}
+
+double max_conveyor_velocity(const RunningConveyor& conveyor) {
+    return conveyor.config.max_velocity();
+}
+/// The switch back to the profile has no number of its own; it is checked like a velocity.
+double max_profile_switch(const RunningConveyor& conveyor) {
+    return std::min(1.0, max_conveyor_velocity(conveyor));
+}
+
+constexpr std::string_view velocity_fault = "drive.speed";
+constexpr std::array<FaultRow<RunningConveyor>, 10> conveyor_faults = {{
+    {velocity_fault, 0, 0, "/s", "velocity from now on, mm/s or degrees/s; 0: standstill", conveyor_drive,
+     max_conveyor_velocity},
+    {"drive.profile", 0, 1, "", "1: back to the profile of the rack file", conveyor_drive, max_profile_switch},
+    {"encoder.broken_a", 0, 2, "", "1: track A reads Low, 2: High; 0 repairs it", conveyor_encoder},
+    {"encoder.broken_b", 0, 2, "", "1: track B reads Low, 2: High; 0 repairs it", conveyor_encoder},
+    {"encoder.swapped", 0, 1, "", "1: the tracks are swapped; 0 repairs it", conveyor_encoder},
+    {"encoder.inverted_a", 0, 1, "", "1: track A is inverted; 0 repairs it", conveyor_encoder},
+    {"encoder.inverted_b", 0, 1, "", "1: track B is inverted; 0 repairs it", conveyor_encoder},
+    {"encoder.noise", 0, max_wrong_levels, "levels", "number of wrong levels from now on, 0.5 to 10 us each",
+     conveyor_encoder},
+    {"encoder.jitter", 0, max_edge_delay_s, "s", "maximum delay of the edges", conveyor_encoder},
+    {"sender.silent", 0, 1, "", "1: the sender is silent; 0 repairs it", conveyor_sender},
+}};
+
 class ConveyorPart final : public TablePart<RunningConveyor> {
   public:
     explicit ConveyorPart(RunningConveyor& conveyor)
-        : TablePart(conveyor.config.name, conveyor.config.unit(), conveyor, conveyor_quantities) {}
+        : TablePart(conveyor.config.name, conveyor.config.unit(), conveyor, conveyor_quantities, conveyor_faults) {}
 
     std::optional<QuantityLimits> limits_to_set(std::string_view quantity_name, Instant) override {
         if (quantity_name != velocity_name()) return std::nullopt;
@@ -55,7 +92,22 @@ class ConveyorPart final : public TablePart<RunningConveyor> {
             return fail(ErrorKind::refused,
                         fmt::format("{} cannot become {}: {:.6g} to {:.6g} are possible. Nothing was done.",
                                     full_name(quantity_name), value, -max_velocity, max_velocity));
-        return fmt::format("drive.speed={:.17g}", value);
+        return fmt::format("{}={:.17g}", velocity_fault, value);
+    }
+
+    /// Those of missing parts are unknown, too.
+    std::vector<std::string_view> fault_names() const override {
+        std::vector<std::string_view> out = TablePart::fault_names();
+        std::erase_if(out, [this](std::string_view name) { return !can_have(name); });
+        return out;
+    }
+    bool drives(std::string_view fault) const override { return fault.starts_with("drive."); }
+    FaultRange fault_range(std::string_view fault) const override {
+        FaultRange out = TablePart::fault_range(fault);
+        if (fault != velocity_fault) return out;
+        out.min = -out.max;
+        out.unit.insert(0, running_.config.unit());
+        return out;
     }
 
   private:
@@ -68,6 +120,7 @@ void add_conveyor_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 
 }  // namespace
 
-constinit const PartKind conveyor_part_kind = {"conveyor", add_conveyor_parts, declared<conveyor_quantities>};
+constinit const PartKind conveyor_part_kind = {"conveyor", add_conveyor_parts, declared<conveyor_quantities>,
+                                               names_of<conveyor_faults>};
 
 }  // namespace motionrack::rack

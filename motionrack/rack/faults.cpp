@@ -1,96 +1,50 @@
-// Finds the target of a fault.
+// Injects faults into the parts of a rack, and lists them.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <motionrack/base/numbers.hpp>
 #include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/part.hpp>
+#include <motionrack/rack/part_catalogue.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::rack {
 
 namespace {
 
-/// Faults of encoder tracks that are wires; other encoder faults belong to the machine.
-constexpr std::array<std::string_view, 7> line_faults = {
-    "encoder.inverted_a", "encoder.inverted_b", "encoder.noise",       "encoder.jitter",
-    "encoder.dirt",       "encoder.overspeed",  "encoder.eccentricity"};
-
-bool of_lines(std::string_view fault) {
-    return std::find(line_faults.begin(), line_faults.end(), fault) != line_faults.end();
-}
-
-/// A part that accepts faults: an axis' mechanics or servo, a stage's motor or scale, a belt or table, or a card.
-struct Found {
-    RunningAxis* axis = nullptr;
-    Card* card = nullptr;
-    RunningStage* stage = nullptr;
-    RunningConveyor* track = nullptr;
+/// A fault with its value, at the part that has it.
+struct FaultAtPart {
+    Part* part = nullptr;
     std::string_view name;
     double value = 1;
-    bool of_servo() const { return axis != nullptr && axis->servo && name.substr(0, 6) == "motor."; }
+    std::uint32_t number = 0;  ///< among the part's fault_names()
 };
 
-/// Returns true if the machine has the part named by the fault ("encoder.", "limit_plus." ...).
-bool has_part(const RunningAxis& axis, std::string_view fault) {
-    const parts::AxisMechanics& machine = *axis.machine;
-    const std::string_view part = fault.substr(0, fault.find('.'));
-    if (of_lines(fault)) return axis.lines != nullptr;
-    if (part == "encoder") return machine.has_encoder();
-    if (part == "limit_minus") return machine.switches().limit_minus().present();
-    if (part == "limit_plus") return machine.switches().limit_plus().present();
-    if (part == "home") return machine.switches().home().present();
-    const auto knows = [fault](std::span<const std::string_view> names) {
-        return std::find(names.begin(), names.end(), fault) != names.end();
-    };
-    return axis.servo ? knows(parts::DcMotor::fault_names()) : knows(parts::AxisMechanics::fault_names());
-}
-
-std::vector<std::string_view> names_of(const Found& found) {
-    if (found.axis != nullptr) return fault_names();
-    if (found.stage != nullptr) {
-        const auto motor = parts::LinearStage::fault_names(), scale = parts::LinearScale::fault_names();
-        std::vector<std::string_view> out(motor.begin(), motor.end());
-        out.insert(out.end(), scale.begin(), scale.end());
-        return out;
-    }
-    if (found.track != nullptr) return found.track->fault_names();
-    const auto names = found.card->fault_names();
-    return {names.begin(), names.end()};
-}
-
-Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) {
-    Found found;
+/// Finds the part of that name, if it has faults.
+Result<Part*> find_target(Rack& rack, std::string_view target) {
     std::string targets;
-    const auto add = [&targets](std::string_view name) { targets.append(targets.empty() ? "" : ", ").append(name); };
-    for (RunningAxis& axis : rack.axes()) {
-        if (target.size() == 1 && target[0] == axis.config.letter) found.axis = &axis;
-        add(std::string(1, axis.config.letter));
+    for (const auto& part : rack.parts()) {
+        if (part->fault_names().empty()) continue;
+        if (part->name() == target) return part.get();
+        targets.append(targets.empty() ? "" : ", ").append(part->name());
     }
-    for (const auto& card : rack.cards()) {
-        if (card->fault_names().empty()) continue;
-        if (target == card->name()) found.card = card.get();
-        add(card->name());
-    }
-    for (RunningStage& stage : rack.stages()) {
-        if (target == stage.config.name) found.stage = &stage;
-        add(stage.config.name);
-    }
-    for (RunningConveyor& track : rack.tracks()) {
-        if (target == track.config.name) found.track = &track;
-        add(track.config.name);
-    }
-    if (found.axis == nullptr && found.card == nullptr && found.stage == nullptr && found.track == nullptr)
-        return fail(ErrorKind::invalid_input,
-                    fmt::format("{} has no faults to inject; these of this rack have: {}. Nothing was done.",
-                                in_quotes(target), targets.empty() ? "there are none" : targets));
+    return fail(ErrorKind::invalid_input,
+                fmt::format("{} has no faults to inject; these of this rack have: {}. Nothing was done.",
+                            in_quotes(target), targets.empty() ? "there are none" : targets));
+}
+
+Result<FaultAtPart> find_fault(Rack& rack, std::string_view fault, std::string_view target) {
+    FaultAtPart found;
+    MOTIONRACK_TRY(found.part, find_target(rack, target));
     const std::size_t equals = fault.find('=');
     found.name = fault.substr(0, equals);
-    const auto names = names_of(found);
-    if (std::find(names.begin(), names.end(), found.name) == names.end())
+    const auto names = found.part->fault_names();
+    const auto at = std::find(names.begin(), names.end(), found.name);
+    if (at == names.end())
         return fail(ErrorKind::invalid_input, fmt::format("The rack has no fault {}; known are: {}. Nothing was done.",
                                                           in_quotes(found.name), fmt::join(names, ", ")));
+    found.number = static_cast<std::uint32_t>(at - names.begin());
     if (equals != std::string_view::npos) {
         const std::string_view text = fault.substr(equals + 1);
         found.value = number_of(text);
@@ -99,70 +53,62 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
                         fmt::format("The value of {} is {}; it is a number from {:.0f} to {:.0f}. Nothing was done.",
                                     found.name, in_quotes(text), -max_push, max_push));
     }
-    if (found.axis != nullptr && !has_part(*found.axis, found.name))
-        return fail(ErrorKind::refused,
-                    fmt::format("Axis {} has no part with the fault {}; see its section of the rack "
-                                "file. Nothing was done.",
-                                target, found.name));
+    if (!found.part->can_have(found.name))
+        return fail(ErrorKind::refused, fmt::format("{} has no part with the fault {}; see its section of the rack "
+                                                    "file. Nothing was done.",
+                                                    found.part->subject(), found.name));
     return found;
 }
 
-sim::DeviceId device_of(const Found& found) {
-    if (found.card != nullptr) return found.card->device();
-    if (found.stage != nullptr)
-        return found.name.substr(0, 6) == "scale." ? found.stage->scale->id() : found.stage->motor->id();
-    if (found.track != nullptr) return found.track->device_of(found.name);
-    if (found.of_servo()) return found.axis->servo->id();
-    return of_lines(found.name) ? found.axis->lines->id() : found.axis->machine->id();
+/// Faults that the part can have.
+std::vector<std::string_view> faults_of(const Part& part) {
+    std::vector<std::string_view> out = part.fault_names();
+    std::erase_if(out, [&](std::string_view name) { return !part.can_have(name); });
+    return out;
 }
 
 }  // namespace
 
 std::vector<std::string_view> fault_names() {
-    const auto machine = parts::AxisMechanics::fault_names();
-    std::vector<std::string_view> out(machine.begin(), machine.end());
-    for (const std::string_view name : parts::DcMotor::fault_names())
-        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
-    out.insert(out.end(), line_faults.begin(), line_faults.end());
-    return out;
+    return axis_part_kind.fault_names();
 }
 
 std::vector<FaultTarget> fault_targets(Rack& rack) {
     std::vector<FaultTarget> out;
-    for (RunningAxis& axis : rack.axes()) {
-        FaultTarget& target = out.emplace_back(FaultTarget{std::string(1, axis.config.letter), {}});
-        for (const std::string_view name : fault_names())
-            if (has_part(axis, name)) target.faults.push_back(name);
-    }
-    const auto add = [&out](const std::string& name, const Found& found) {
-        if (auto names = names_of(found); !names.empty()) out.push_back({name, std::move(names)});
-    };
-    for (const auto& card : rack.cards()) add(card->name(), {nullptr, card.get(), nullptr, nullptr, {}, 1});
-    for (RunningStage& stage : rack.stages()) add(stage.config.name, {nullptr, nullptr, &stage, nullptr, {}, 1});
-    for (RunningConveyor& track : rack.tracks()) add(track.config.name, {nullptr, nullptr, nullptr, &track, {}, 1});
+    for (const auto& part : rack.parts())
+        if (auto names = faults_of(*part); !names.empty()) out.push_back({part->name(), std::move(names)});
+    return out;
+}
+
+std::vector<FaultValue> fault_values(Rack& rack) {
+    std::vector<FaultValue> out;
+    for (const auto& part : rack.parts())
+        for (const std::string_view name : faults_of(*part)) {
+            const FaultRange range = part->fault_range(name);
+            out.push_back({part->name(), name, range.unit, range.doc, range.min, range.max});
+        }
     return out;
 }
 
 Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view target) {
-    MOTIONRACK_CHECK(find(rack, fault, target));
+    MOTIONRACK_CHECK(find_fault(rack, fault, target));
     return {};
 }
 
 Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target) {
-    MOTIONRACK_TRY(const Found found, find(rack, fault, target));
-    if (found.track != nullptr && rack.stop_latch().latched() && found.name.substr(0, 6) == "drive.")
+    MOTIONRACK_TRY(const FaultAtPart found, find_fault(rack, fault, target));
+    if (found.part->drives(found.name) && rack.stop_latch().latched())
         return fail(ErrorKind::refused,
                     fmt::format("{} is stopped until a reset. Nothing was done; reset the stop, then start {} again.",
                                 target, target));
-    const Instant now = rack.kernel().now();
-    const sim::DeviceId device = device_of(found);
-    const auto names = names_of(found);
-    sim::LoggedInput input{now, sim::InputKind::fault, static_cast<std::uint16_t>(device), 0, 0, found.value};
-    input.offset = static_cast<std::uint32_t>(std::find(names.begin(), names.end(), found.name) - names.begin());
+    const sim::LoggedInput input{rack.kernel().now(),
+                                 sim::InputKind::fault,
+                                 static_cast<std::uint16_t>(found.part->device_of(found.name)),
+                                 found.number,
+                                 0,
+                                 found.value};
     rack.input_log().add(input);
-    const bool known = found.card != nullptr ? found.card->fault(found.name, found.value, now)
-                                             : rack.kernel().device(device).fault(found.name, found.value, now);
-    if (!known)
+    if (!found.part->inject(rack.kernel(), found.name, found.value))
         return fail(ErrorKind::refused, fmt::format("{} cannot have the fault {} with the value {}. Nothing was done.",
                                                     target, found.name, found.value));
     rack.kernel().settle();

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/marking.hpp>
@@ -12,10 +11,6 @@ namespace motionrack::rack {
 namespace {
 
 constexpr double places_per_unit = 1e5;  // resolution of part positions: 10 nm, or 1/100,000 degree
-/// Faults of the encoder's lines; see parts::LineOutput.
-constexpr std::array<std::string_view, 7> encoder_faults = {
-    "encoder.broken_a",   "encoder.broken_b", "encoder.swapped", "encoder.inverted_a",
-    "encoder.inverted_b", "encoder.noise",    "encoder.jitter"};
 
 std::int64_t places(double units) {
     return static_cast<std::int64_t>(std::floor(units * places_per_unit + 0.5));
@@ -61,19 +56,6 @@ parts::StationSettings RackScanner::settings() const {
 std::string RunningConveyor::wire_name(std::string_view end) const {
     if (begins_with(end, "enc_")) return fmt::format("{}.encoder.{}", config.name, end.substr(4));
     return fmt::format("{}.{}", config.name, end);
-}
-
-std::vector<std::string_view> RunningConveyor::fault_names() const {
-    const auto drive_names = parts::ConveyorDrive::fault_names(), sender_names = parts::SerialWordSource::fault_names();
-    std::vector<std::string_view> out(drive_names.begin(), drive_names.end());
-    if (encoder) out.insert(out.end(), encoder_faults.begin(), encoder_faults.end());
-    if (sender) out.insert(out.end(), sender_names.begin(), sender_names.end());
-    return out;
-}
-
-sim::DeviceId RunningConveyor::device_of(std::string_view fault) const {
-    if (encoder && begins_with(fault, "encoder.")) return encoder->id();
-    return sender && begins_with(fault, "sender.") ? sender->id() : drive->id();
 }
 
 RunningConveyor build_track(sim::Kernel& kernel, const RackConveyor& config) {

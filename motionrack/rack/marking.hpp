@@ -31,9 +31,6 @@ struct RunningConveyor {
     const parts::Conveyor& track() const { return drive->track(); }
     /// Returns the kernel wire of a signal.
     std::string wire_name(std::string_view end) const;
-    /// Faults of the drive, the encoder and the sender; and the device that accepts one.
-    std::vector<std::string_view> fault_names() const;
-    sim::DeviceId device_of(std::string_view fault) const;
 };
 
 /// One scan head of the running machine. Its marks can be read between runs: station().workpiece() has the growing list

@@ -1,14 +1,15 @@
-// A part of the running machine, or a card, as those see it that know it by its name alone: its quantities.
+// A part of the running machine, or a card, as those see it that know it by its name alone: quantities and faults.
 //
-//   rack file ──► Rack ──parts()──► Part "X", "motion", "stage_x", "line" ──► quantities of the whole rack
+//   rack file ──► Rack ──parts()──► Part "X", "motion", "stage_x", "line" ──► quantities, faults of the whole rack
 //                                    ▲
-//   part_catalogue.cpp: one line per kind of part, which names its table
+//   part_catalogue.cpp: one line per kind of part, which names its tables
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
+#include <motionrack/sim/kernel.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,13 @@ struct QuantityLimits {
     double min = 0, max = 0;
 };
 
+/// Values of a fault.
+struct FaultRange {
+    std::string unit;      ///< empty: none
+    std::string_view doc;  ///< effect of the value
+    double min = 0, max = 0;
+};
+
 class Part {
   public:
     virtual ~Part() = default;
@@ -49,6 +57,7 @@ class Part {
     /// Returns true for a card: it is not part of the machine, and its quantities follow those of all parts.
     virtual bool is_card() const { return false; }
 
+    // ---- quantities
     /// Existing quantities, in the order of their table.
     virtual std::vector<Quantity> quantities() = 0;
     /// Returns the value of one, or nothing if the part does not have it.
@@ -60,6 +69,20 @@ class Part {
     virtual Result<std::string> fault_to_set(std::string_view quantity_name, double value, Instant now);
     /// Builds the error that lists the quantities of the part.
     tl::unexpected<Error> no_such_quantity(std::string_view quantity_name);
+
+    // ---- faults
+    /// Known faults, by names that begin with the part of this part: "encoder.dirt". The input log numbers them so.
+    virtual std::vector<std::string_view> fault_names() const = 0;
+    /// Returns true if the part has what the known fault is of: a known fault of an axis may be one of an encoder that
+    /// it lacks.
+    virtual bool can_have(std::string_view fault) const { return (void)fault, true; }
+    /// Returns true if the known fault sets the part in motion, which a latched stop prevents.
+    virtual bool drives(std::string_view fault) const { return (void)fault, false; }
+    virtual FaultRange fault_range(std::string_view fault) const = 0;
+    /// Returns the device that accepts the fault.
+    virtual sim::DeviceId device_of(std::string_view fault) const = 0;
+    /// Injects a fault that the part can have, now. Returns false if the part cannot have it with this value.
+    virtual bool inject(sim::Kernel& kernel, std::string_view fault, double value) = 0;
 
   protected:
     /// "X.position_mm".

@@ -22,7 +22,8 @@ struct PartKind {
     std::string_view name;  ///< "axis"
     /// Appends the rack's parts of this kind, in the order of the rack file.
     void (*add)(Rack& rack, std::vector<std::unique_ptr<Part>>& parts);
-    std::vector<DeclaredQuantity> (*quantities)();  ///< nullptr: each part of the kind has its own
+    std::vector<DeclaredQuantity> (*quantities)();   ///< nullptr: each part of the kind has its own
+    std::vector<std::string_view> (*fault_names)();  ///< nullptr: none, or each part of the kind has its own
 };
 
 extern const PartKind axis_part_kind;

@@ -1,4 +1,4 @@
-// A scan head as a part: its quantities.
+// A scan head as a part: its quantities. It has no faults.
 #include <array>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/table_part.hpp>
@@ -28,7 +28,8 @@ constexpr std::array<QuantityRow<RunningScanner>, 7> scanner_quantities = {{
 
 class ScannerPart final : public TablePart<RunningScanner> {
   public:
-    explicit ScannerPart(RunningScanner& scanner) : TablePart(scanner.config.name, {}, scanner, scanner_quantities) {}
+    explicit ScannerPart(RunningScanner& scanner)
+        : TablePart(scanner.config.name, {}, scanner, scanner_quantities, {}) {}
 };
 
 void add_scanner_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
@@ -37,6 +38,6 @@ void add_scanner_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 
 }  // namespace
 
-constinit const PartKind scanner_part_kind = {"scanner", add_scanner_parts, declared<scanner_quantities>};
+constinit const PartKind scanner_part_kind = {"scanner", add_scanner_parts, declared<scanner_quantities>, nullptr};
 
 }  // namespace motionrack::rack

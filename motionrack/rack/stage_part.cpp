@@ -1,5 +1,6 @@
-// A stage as a part: its quantities.
+// A stage as a part: its quantities and faults.
 #include <array>
+#include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/table_part.hpp>
 
@@ -49,9 +50,29 @@ constexpr std::array<QuantityRow<RunningStage>, 13> stage_quantities = {{
      has_stage_loop},
 }};
 
+std::optional<sim::DeviceId> stage_motor(const RunningStage& stage) {
+    return stage.motor->id();
+}
+std::optional<sim::DeviceId> stage_scale(const RunningStage& stage) {
+    return stage.scale->id();
+}
+
+constexpr double max_expansion_ppm = 1e5;
+constexpr std::array<FaultRow<RunningStage>, 8> stage_faults = {{
+    {"motor.stall", 0, 1, "", "1: the stage is blocked; 0 releases it", stage_motor},
+    {"motor.push", -max_push, max_push, "nm", "distance by which the stage is pushed, at most to its hard stops",
+     stage_motor},
+    {"motor.friction", 0, max_factor, "m/s2", "deceleration by added friction", stage_motor},
+    {"motor.load", 0, max_factor, "", "ratio of the load to the mass of the stage", stage_motor},
+    {"scale.lose", -max_push, max_push, "counts", "number of counts that are lost at once", stage_scale},
+    {"scale.dirt", 0, max_push, "nm", "length of the dirty part of the grating, which is not read", stage_scale},
+    {"scale.swapped", 0, 1, "", "1: the lines are swapped: the scale counts backwards; 0 repairs it", stage_scale},
+    {"scale.expansion", -max_expansion_ppm, max_expansion_ppm, "ppm", "expansion of the grating", stage_scale},
+}};
+
 class StagePart final : public TablePart<RunningStage> {
   public:
-    explicit StagePart(RunningStage& stage) : TablePart(stage.config.name, {}, stage, stage_quantities) {}
+    explicit StagePart(RunningStage& stage) : TablePart(stage.config.name, {}, stage, stage_quantities, stage_faults) {}
 
     std::string subject() const override { return "Stage " + name(); }
 };
@@ -62,6 +83,7 @@ void add_stage_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 
 }  // namespace
 
-constinit const PartKind stage_part_kind = {"stage", add_stage_parts, declared<stage_quantities>};
+constinit const PartKind stage_part_kind = {"stage", add_stage_parts, declared<stage_quantities>,
+                                            names_of<stage_faults>};
 
 }  // namespace motionrack::rack

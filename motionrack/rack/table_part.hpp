@@ -1,9 +1,10 @@
-// A part whose quantities are the rows of one table. Only the files of parts (*_part.cpp) use it.
+// A part whose quantities and faults are the rows of two tables. Only the files of parts (*_part.cpp) use it.
 #pragma once
 
 #include <motionrack/rack/part.hpp>
 #include <motionrack/rack/part_catalogue.hpp>
 #include <motionrack/rack/toml_reader.hpp>
+#include <motionrack/sim/kernel.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,12 +24,39 @@ struct QuantityRow {
     bool (*present)(const Running& running) = nullptr;  ///< nullptr: always
 };
 
+/// A row of the table of faults of a kind of part.
+template <class Running>
+struct FaultRow {
+    std::string_view name;
+    double min, max;
+    std::string_view unit, doc;
+    /// Returns the device that accepts the fault; nothing if it is missing. nullptr: that of the card.
+    std::optional<sim::DeviceId> (*device)(const Running& running) = nullptr;
+    double (*max_of)(const Running& running) = nullptr;  ///< replaces max; may be nullptr
+};
+
+/// Limits of faults that several kinds of part have.
+inline constexpr double max_wrong_levels = 1e6, max_edge_delay_s = 1, max_factor = 1000;
+
+template <class Row>
+const Row* find_row(std::span<const Row> rows, std::string_view name) {
+    for (const Row& row : rows)
+        if (row.name == name) return &row;
+    return nullptr;
+}
+
+template <class Running>
+FaultRange range_of_row(const FaultRow<Running>& row, const Running& running) {
+    return {std::string(row.unit), row.doc, row.min, row.max_of == nullptr ? row.max : row.max_of(running)};
+}
+
 template <class Running>
 class TablePart : public Part {
   public:
     /// `unit`: in the names of the quantities. `running` stays where it is as long as the rack exists.
-    TablePart(std::string name, std::string_view unit, Running& running, std::span<const QuantityRow<Running>> rows)
-        : running_(running), name_(std::move(name)), unit_(unit), rows_(rows) {}
+    TablePart(std::string name, std::string_view unit, Running& running, std::span<const QuantityRow<Running>> rows,
+              std::span<const FaultRow<Running>> faults)
+        : running_(running), name_(std::move(name)), unit_(unit), rows_(rows), faults_(faults) {}
 
     const std::string& name() const final { return name_; }
     std::vector<Quantity> quantities() final {
@@ -45,6 +73,20 @@ class TablePart : public Part {
         return std::nullopt;
     }
 
+    std::vector<std::string_view> fault_names() const override {
+        std::vector<std::string_view> out;
+        for (const FaultRow<Running>& row : faults_) out.push_back(row.name);
+        return out;
+    }
+    bool can_have(std::string_view fault) const final { return find_row(faults_, fault)->device(running_).has_value(); }
+    FaultRange fault_range(std::string_view fault) const override {
+        return range_of_row(*find_row(faults_, fault), running_);
+    }
+    sim::DeviceId device_of(std::string_view fault) const final { return *find_row(faults_, fault)->device(running_); }
+    bool inject(sim::Kernel& kernel, std::string_view fault, double value) final {
+        return kernel.device(device_of(fault)).fault(fault, value, kernel.now());
+    }
+
   protected:
     Running& running_;
 
@@ -54,6 +96,7 @@ class TablePart : public Part {
     std::string name_;
     std::string_view unit_;
     std::span<const QuantityRow<Running>> rows_;
+    std::span<const FaultRow<Running>> faults_;
 };
 
 /// Names and descriptions of a table's rows.
@@ -61,6 +104,12 @@ template <const auto& rows>
 std::vector<DeclaredQuantity> declared() {
     std::vector<DeclaredQuantity> out;
     for (const auto& row : rows) out.push_back({row.name, row.doc});
+    return out;
+}
+template <const auto& rows>
+std::vector<std::string_view> names_of() {
+    std::vector<std::string_view> out;
+    for (const auto& row : rows) out.push_back(row.name);
     return out;
 }
 
