@@ -5,19 +5,6 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> axis_machine_faults = {"motor.stall",
-                                                                  "motor.lose_steps",
-                                                                  "motor.push",
-                                                                  "encoder.broken_a",
-                                                                  "encoder.broken_b",
-                                                                  "encoder.swapped",
-                                                                  "limit_minus.stuck_open",
-                                                                  "limit_minus.stuck_closed",
-                                                                  "limit_plus.stuck_open",
-                                                                  "limit_plus.stuck_closed",
-                                                                  "home.stuck_open",
-                                                                  "home.stuck_closed"};
-
 std::int64_t whole(double value) {
     return static_cast<std::int64_t>(value + (value < 0 ? -0.5 : 0.5));
 }
@@ -55,10 +42,6 @@ AxisMechanics::AxisMechanics(sim::Kernel& kernel, const std::string& name, const
 void AxisMechanics::connect(sim::PositionFunction& pulses) {
     input_.connect(pulses, *this);
     aim(kernel_.now());
-}
-
-std::span<const std::string_view> AxisMechanics::fault_names() {
-    return axis_machine_faults;
 }
 
 sim::PositionFunction& AxisMechanics::rotor() {

@@ -84,18 +84,16 @@ class AxisMechanics final : public sim::Device, private sim::PositionListener {
     const AxisMechanicsSettings& settings() const { return settings_; }
     const AxisSwitches& switches() const { return switches_; }
 
-    /// Faults that fault() accepts:
+    void on_scheduled(Instant now) override;
+    int level_at(int pin, Instant now) const override;
+    void wanted_changed(int pin, bool wanted, Instant now) override;
+    std::span<std::byte> state() override { return sim::bytes_of(state_); }
+    /// Faults that it accepts:
     ///   motor.stall            the axle is blocked while not 0
     ///   motor.lose_steps n     the rotor falls back against its motion by about n pulses (see Stepper::push)
     ///   motor.push n           the rotor is moved by about n microsteps
     ///   encoder.broken_a, encoder.broken_b, encoder.swapped       while not 0, one at a time
     ///   S.stuck_open, S.stuck_closed   while not 0; S: limit_minus, limit_plus, home
-    static std::span<const std::string_view> fault_names();
-
-    void on_scheduled(Instant now) override;
-    int level_at(int pin, Instant now) const override;
-    void wanted_changed(int pin, bool wanted, Instant now) override;
-    std::span<std::byte> state() override { return sim::bytes_of(state_); }
     bool fault(std::string_view name, double value, Instant now) override;
 
   private:

@@ -1,24 +1,15 @@
 // Velocity changes of a conveyor.
-#include <array>
 #include <cmath>
 #include <motionrack/sim/parts/conveyor_drive.hpp>
 
 namespace motionrack::parts {
 
-namespace {
-constexpr std::array<std::string_view, 2> track_drive_faults = {"drive.speed", "drive.profile"};
-}
-
 ConveyorDrive::ConveyorDrive(sim::Kernel& kernel, const std::string& name, const Conveyor& track, double max_velocity)
     : track_(track), max_velocity_(max_velocity), id_(kernel.add(*this, sim::Phase::parts, name)) {}
 
-std::span<const std::string_view> ConveyorDrive::fault_names() {
-    return track_drive_faults;
-}
-
 bool ConveyorDrive::fault(std::string_view name, double value, Instant now) {
-    const bool by_hand = name == track_drive_faults[0];
-    if (!by_hand && name != track_drive_faults[1]) return false;
+    const bool by_hand = name == "drive.speed";
+    if (!by_hand && name != "drive.profile") return false;
     if (!(std::fabs(value) <= max_velocity_)) return false;
     if (!by_hand) return go_on(now), true;
     change(now, [value](Conveyor& track, double at_s) { track.drive(at_s, value); });

@@ -27,7 +27,6 @@ class ConveyorDrive final : public sim::Device {
     sim::DeviceId id() const { return id_; }
     /// Adds a listener for velocity changes; before the start.
     void add(ConveyorPosition& motion) { motions_.push_back(&motion); }
-    static std::span<const std::string_view> fault_names();
 
     // ---- between runs
     /// Decelerates to a standstill; `go_on`: follows the profile again.

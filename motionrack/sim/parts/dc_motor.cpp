@@ -1,6 +1,5 @@
 // Laws of motion of the rotor, and their end points.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <motionrack/base/exponential.hpp>
 #include <motionrack/base/result.hpp>
@@ -11,7 +10,6 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> dc_motor_faults = {"motor.load", "motor.stall", "motor.push"};
 constexpr Duration grid = microseconds(1);
 constexpr double grid_s = 1e-6;
 /// Listeners are notified of velocity changes by this part of the saturation velocity.
@@ -228,10 +226,6 @@ bool DcMotor::fault(std::string_view name, double value, Instant now) {
         return false;
     change(now);
     return true;
-}
-
-std::span<const std::string_view> DcMotor::fault_names() {
-    return dc_motor_faults;
 }
 
 // ---- listeners

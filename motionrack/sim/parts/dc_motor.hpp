@@ -78,13 +78,11 @@ class DcMotor final : public sim::DeferringDevice, public sim::PositionFunction 
     sim::DeviceId id() const { return id_; }
     const DcMotorSettings& settings() const { return settings_; }
 
-    /// motor.load x: inertia of the load; motor.stall: blocked while not 0; motor.push n: moved by n counts by hand.
-    static std::span<const std::string_view> fault_names();
-
     void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     void sync(Instant now) override { hand_over(now); }
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
+    /// motor.load x: inertia of the load; motor.stall: blocked while not 0; motor.push n: moved by n counts by hand.
     bool fault(std::string_view name, double value, Instant now) override;
 
   private:

@@ -10,8 +10,6 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> scale_faults = {"scale.lose", "scale.dirt", "scale.swapped",
-                                                          "scale.expansion"};
 constexpr Wide max_ratio = Wide{1} << 50;                              // limit that keeps all products in range
 constexpr std::int64_t farthest_scale_counts = std::int64_t{1} << 46;  // counts; watches beyond are never left
 constexpr Wide billion = 1'000'000'000;
@@ -70,10 +68,6 @@ LinearScale::LinearScale(sim::Kernel& kernel, const std::string& name, sim::Posi
         wires_[i] = kernel.add_wire(name + names[i], level_at(static_cast<int>(i), Instant{0}));
         kernel.drive_lazily(wires_[i], id_, static_cast<int>(i));
     }
-}
-
-std::span<const std::string_view> LinearScale::fault_names() {
-    return scale_faults;
 }
 
 // ---- the closed form

@@ -83,7 +83,6 @@ class LinearScale final : public sim::DeferringDevice, public sim::PositionFunct
     sim::WireId z() const { return wires_[2]; }
     sim::DeviceId id() const { return id_; }
     const LinearScaleSettings& settings() const { return settings_; }
-    static std::span<const std::string_view> fault_names();
 
     void on_scheduled(Instant now) override;
     int level_at(int pin, Instant now) const override;

@@ -9,7 +9,6 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> stage_faults = {"motor.stall", "motor.push", "motor.friction", "motor.load"};
 constexpr int fine_bits = 68;
 constexpr double fine_per_count = 0x1p68;  // fractions of a count
 constexpr double counts_per_m = 1e9 * places_per_nm;
@@ -74,10 +73,6 @@ LinearStage::LinearStage(sim::Kernel& kernel, const std::string& name, const Lin
     state_.position = fine_position(count_of_nm(s.start_nm));
     state_.load = s.load_mass_ratio;
     begin_law();
-}
-
-std::span<const std::string_view> LinearStage::fault_names() {
-    return stage_faults;
 }
 
 // ---- position

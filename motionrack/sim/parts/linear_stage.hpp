@@ -69,14 +69,12 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
     sim::DeviceId id() const { return id_; }
     const LinearStageSettings& settings() const { return settings_; }
 
-    /// motor.stall: blocked while not 0; motor.push n: moved by n nm by hand; motor.friction x: x m/s2 more dry
-    /// friction; motor.load x: mass on the stage relative to its own.
-    static std::span<const std::string_view> fault_names();
-
     void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     void sync(Instant now) override { hand_over(now); }
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
+    /// motor.stall: blocked while not 0; motor.push n: moved by n nm by hand; motor.friction x: x m/s2 more dry
+    /// friction; motor.load x: mass on the stage relative to its own.
     bool fault(std::string_view name, double value, Instant now) override;
 
   private:

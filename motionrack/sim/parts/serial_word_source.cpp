@@ -8,7 +8,6 @@ namespace motionrack::parts {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> word_source_faults = {"sender.silent"};
 constexpr double ticks_per_us = 10'000;
 
 }  // namespace
@@ -25,10 +24,6 @@ SerialWordSource::SerialWordSource(sim::Kernel& kernel, const std::string& name,
     MOTIONRACK_ASSERT(sender.settings().delay_us <
                       static_cast<double>(max_under_way - 1) * sender.settings().period_us);
     schedule();
-}
-
-std::span<const std::string_view> SerialWordSource::fault_names() {
-    return word_source_faults;
 }
 
 Instant SerialWordSource::reading(std::int64_t n) const {
@@ -59,7 +54,7 @@ void SerialWordSource::on_scheduled(Instant now) {
 }
 
 bool SerialWordSource::fault(std::string_view name, double value, Instant) {
-    if (name != word_source_faults[0]) return false;
+    if (name != "sender.silent") return false;
     state_.silent = value != 0;
     return true;
 }

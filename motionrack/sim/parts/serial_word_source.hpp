@@ -28,7 +28,6 @@ class SerialWordSource final : public sim::Device {
     sim::DeviceId id() const { return id_; }
     /// The last complete word.
     std::int32_t word() const { return static_cast<std::int32_t>(state_.word); }
-    static std::span<const std::string_view> fault_names();
 
     void on_scheduled(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }

@@ -315,7 +315,8 @@ TEST(LinearStage, AcceptsFaultsThatStallPushBrakeAndLoadIt) {
     EXPECT_FALSE(fault("motor.friction", std::nan("")));
     EXPECT_FALSE(fault("motor.push", 1e300));
     EXPECT_FALSE(fault("motor.fly", 1));
-    for (const std::string_view name : LinearStage::fault_names()) EXPECT_TRUE(fault(name, 0)) << name;
+    for (const char* name : {"motor.stall", "motor.push", "motor.friction", "motor.load"})
+        EXPECT_TRUE(fault(name, 0)) << name;
 }
 
 TEST(LinearStage, ARestoredSnapshotContinuesIdenticallyWithoutAllocation) {
