@@ -21,15 +21,15 @@ constexpr const char* by_its_wires =
 
 }  // namespace
 
-LiveCard::LiveCard(const LivePlace& place, rack::Rack& rack, const rack::CardKind& kind)
+LiveCard::LiveCard(const LivePlace& place, rack::Rack& rack, const rack::CardPlugin& plugin)
     : place_(place),
-      kind_(kind),
+      plugin_(plugin),
       select_(static_cast<std::uint8_t>(rack.config().card(place.card)->databoard4002.card_number)),
       host_(rack.cards().front()->host()) {}
 
 Result<std::unique_ptr<LiveCard>> LiveCard::open(const LivePlace& place, rack::Rack& rack) {
-    const rack::CardKind* const kind = rack::find_card_kind(rack.config().card(place.card)->type);
-    std::unique_ptr<LiveCard> card(new LiveCard(place, rack, *kind));
+    const rack::CardPlugin* const plugin = rack::find_card_plugin(rack.config().card(place.card)->type);
+    std::unique_ptr<LiveCard> card(new LiveCard(place, rack, *plugin));
     MOTIONRACK_CHECK(card->open_port());
     card->poll();
     if (card->lost_) return tl::unexpected<Error>(*card->lost_);
@@ -40,9 +40,9 @@ Result<void> LiveCard::open_port() {
     last_stop_.reset();
     last_library_.reset();
     card_ = {};  // with its lock
-    MOTIONRACK_TRY(card_, live::open_card(place_.spec, kind_.map()));
+    MOTIONRACK_TRY(card_, live::open_card(place_.spec, plugin_.map()));
     lost_.reset();
-    last_library_ = kind_.library({card_.registers, card_.bytes, card_.port.get(), select_});
+    last_library_ = plugin_.library({card_.registers, card_.bytes, card_.port.get(), select_});
     last_stop_.emplace(*last_library_);
     return {};
 }
@@ -79,7 +79,7 @@ std::uint8_t LiveCard::in(std::uint8_t port) {
 
 void LiveCard::poll() {
     if (lost_ || gives_up_) return;
-    Result<rack::RegisterView> view = kind_.view(bus(), false);
+    Result<rack::RegisterView> view = plugin_.view(bus(), false);
     if (!view && !lost_) lost_ = view.error();
     if (lost_) return;
     polled_ = now();

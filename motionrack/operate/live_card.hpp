@@ -68,7 +68,7 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     Instant now() const override { return clock_.now(); }
     /// Also true once the card is lost, which ends waiting functions.
     bool stop_requested() const override { return lost_.has_value() || host_.stop_requested(); }
-    std::unique_ptr<FunctionLibrary> make_library() { return kind_.library(bus()); }
+    std::unique_ptr<FunctionLibrary> make_library() { return plugin_.library(bus()); }
 
     // ---- interface for the service
     /// Reads all registers now; writes the commands that reading takes, which move nothing.
@@ -87,7 +87,7 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     LiveStop stop(FunctionLibrary& library);
 
   private:
-    LiveCard(const LivePlace& place, rack::Rack& rack, const rack::CardKind& kind);
+    LiveCard(const LivePlace& place, rack::Rack& rack, const rack::CardPlugin& plugin);
     rack::CardBus bus() { return {this, this, this, select_}; }
     Result<void> open_port();
     void keep_up();
@@ -95,7 +95,7 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     bool stands_after_stop(FunctionLibrary& library);
 
     LivePlace place_;
-    const rack::CardKind& kind_;
+    const rack::CardPlugin& plugin_;
     std::uint8_t select_;
     Interrupt& host_;  ///< virtual time
     live::MonotonicClock clock_;

@@ -31,11 +31,11 @@ Result<void> check_live_places(const rack::RackConfig& config, std::span<const L
                                                               "Nothing was opened. A real card replaces one of them.",
                                                               rack::in_quotes(name), known));
         }
-        const Result<const rack::CardKind*> kind = rack::find_live_kind(card->type);
-        if (!kind)
+        const Result<const rack::CardPlugin*> plugin = rack::find_live_plugin(card->type);
+        if (!plugin)
             return fail(ErrorKind::refused,
-                        fmt::format("Card {} is of type {}. {}", name, card->type, kind.error().message));
-        MOTIONRACK_CHECK(live::check_card(places[i].spec, (*kind)->map()));
+                        fmt::format("Card {} is of type {}. {}", name, card->type, plugin.error().message));
+        MOTIONRACK_CHECK(live::check_card(places[i].spec, (*plugin)->map()));
         std::string letters;
         for (const rack::RackAxis& axis : config.axes)
             if (axis.card == name) letters += fmt::format("{}{}", letters.empty() ? "" : ", ", axis.letter);

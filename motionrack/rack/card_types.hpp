@@ -1,4 +1,5 @@
-// Card types that a rack file can name: channels, pins, settings and default wires; one row per card type.
+// What a rack file can say of a type of card: channels, pins, settings and default wires. Each type has its own in its
+// plug-in; see catalogue.hpp.
 #pragma once
 
 #include <motionrack/base/card_map.hpp>
@@ -58,24 +59,29 @@ struct CardFlaw {
     std::string text;
 };
 
+/// For cards that move no axis.
+inline double no_rate(const RackCard&) {
+    return 0;
+}
+
 /// Rack file schema of one card type.
 struct CardType {
     std::string_view name;
     std::string_view doc;
-    std::string_view channels;  ///< one letter per axis channel; empty: one channel without a letter, or none if the
-                                ///< type has no channel pins
-    std::span<const PinType> channel_pins;
-    std::span<const PinType> chip_pins;
-    std::span<const DefaultWire> default_wires;
-    std::string_view estop_pin;                         ///< the chip pin that the emergency stop drives; empty: none
-    std::span<const Field> settings;                    ///< keys of [card.NAME] specific to this type
-    void* (*settings_of)(RackCard& card);               ///< returns the object that `settings` are read into
-    double (*max_pulse_hz)(const RackCard&);            ///< highest pulse rate
-    double (*max_accel_hz_s)(const RackCard&);          ///< highest change of the pulse rate
-    double (*max_encoder_hz)(const RackCard&);          ///< highest count rate of an encoder input, counts/s
-    std::int64_t max_position = 2'147'483'647;          ///< limit of the position counters, counts or pulses
-    std::span<const std::string_view> home_pins = {};   ///< inputs of a channel for a home switch, by input number
-    std::span<const std::string_view> index_pins = {};  ///< inputs of a channel for an encoder's index
+    std::string_view channels = {};  ///< one letter per axis channel; empty: one channel without a letter, or none if
+                                     ///< the type has no channel pins
+    std::span<const PinType> channel_pins = {};
+    std::span<const PinType> chip_pins = {};
+    std::span<const DefaultWire> default_wires = {};
+    std::string_view estop_pin = {};                      ///< the chip pin that the emergency stop drives; empty: none
+    std::span<const Field> settings = {};                 ///< keys of [card.NAME] specific to this type
+    void* (*settings_of)(RackCard& card) = nullptr;       ///< returns the object that `settings` are read into
+    double (*max_pulse_hz)(const RackCard&) = no_rate;    ///< highest pulse rate
+    double (*max_accel_hz_s)(const RackCard&) = no_rate;  ///< highest change of the pulse rate
+    double (*max_encoder_hz)(const RackCard&) = no_rate;  ///< highest count rate of an encoder input, counts/s
+    std::int64_t max_position = 2'147'483'647;            ///< limit of the position counters, counts or pulses
+    std::span<const std::string_view> home_pins = {};     ///< inputs of a channel for a home switch, by input number
+    std::span<const std::string_view> index_pins = {};    ///< inputs of a channel for an encoder's index
     bool position_loop = false;  ///< the card positions an axis by itself; the axis needs an encoder
     /// Checks that involve several keys; `before`: the preceding cards in the file. May be nullptr.
     std::optional<CardFlaw> (*flaw)(const RackCard& card, std::span<const RackCard> before) = nullptr;
@@ -97,8 +103,8 @@ struct CardType {
     int channel_of(std::string_view channel_name) const;
 };
 
-/// All card types, in the order of the reference page.
-std::span<const CardType> card_types();
+/// Names of all types, in the order of the reference page.
+std::span<const std::string_view> card_type_names();
 
 /// Returns the type with that name, or nullptr.
 const CardType* find_card_type(std::string_view name);

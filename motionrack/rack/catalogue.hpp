@@ -1,4 +1,4 @@
-// Catalogue of card kinds as the rack uses them: one line per kind in catalogue.cpp.
+// Catalogue of the types of card as the rack uses them: one line per type in catalogue.cpp.
 #pragma once
 
 #include <memory>
@@ -6,6 +6,7 @@
 #include <motionrack/base/function_library.hpp>
 #include <motionrack/control/axis.hpp>
 #include <motionrack/control/axis_group.hpp>
+#include <motionrack/rack/card_types.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/register_view.hpp>
 #include <motionrack/sim/input_log.hpp>
@@ -153,40 +154,37 @@ struct CardBus {
 /// Bus of a virtual card.
 CardBus bus_of(Card& card, const RackCard& config);
 
-/// One kind of card.
-struct CardKind {
-    std::string_view type;    ///< type name in a rack file
+/// One type of card, complete. Each is one object, in the file of its card (NAME_card.cpp).
+struct CardPlugin {
+    CardType type;            ///< what a rack file can say of it
     const CardMap& (*map)();  ///< registers, commands, states and pins
-    /// `before`: the existing cards of the rack; cards of some kinds share a bus.
+    /// `before`: the existing cards of the rack; cards of some types share a bus.
     std::unique_ptr<Card> (*make)(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                   std::span<const std::unique_ptr<Card>> before);
     /// Reads the registers of a virtual or real card; nullptr if not supported. Errors: machine if no card answers.
     Result<RegisterView> (*view)(const CardBus& bus, bool clearing) = nullptr;
     /// Function library of a virtual or real card; nullptr: no library for manual calls.
     std::unique_ptr<FunctionLibrary> (*library)(const CardBus& bus) = nullptr;
-    /// Why a real card has no live port, a sentence; empty: it has one, with `view` and `library`.
+    /// Why a real card has no live port, a sentence; empty: it has one, with `view` and `library`. Nothing is written
+    /// to a real card by a map that is not its maker's: that would set whatever is at these addresses.
     std::string_view no_live_port = {};
 };
 
+extern const CardPlugin mcx314_plugin;
+extern const CardPlugin databoard4002_plugin;
+extern const CardPlugin ioflex02_plugin;
+extern const CardPlugin grating_bus_plugin;
+extern const CardPlugin grating_decoder_plugin;
+extern const CardPlugin rtc5_plugin;
+
+/// All types of card, in the order of the reference page.
+std::span<const CardPlugin* const> card_plugins();
+/// Returns nullptr if the type is unknown.
+const CardPlugin* find_card_plugin(std::string_view type);
+/// Finds a type whose real cards have a live port. Errors: invalid_input, with the reason and the types that have one.
+Result<const CardPlugin*> find_live_plugin(std::string_view type);
+
 /// Builds the error that lists the readable registers of the card's map, and `more`.
 tl::unexpected<Error> no_such_value(const Card& card, std::string_view name, std::span<const std::string_view> more);
-
-std::unique_ptr<Card> make_ioflex02(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
-                                    std::span<const std::unique_ptr<Card>> before);
-std::unique_ptr<Card> make_grating_bus(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
-                                       std::span<const std::unique_ptr<Card>> before);
-std::unique_ptr<Card> make_grating_decoder(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
-                                           std::span<const std::unique_ptr<Card>> before);
-std::unique_ptr<Card> make_databoard4002(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
-                                         std::span<const std::unique_ptr<Card>> before);
-
-std::unique_ptr<Card> make_rtc5(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
-                                std::span<const std::unique_ptr<Card>> before);
-
-std::span<const CardKind> card_kinds();
-/// Returns nullptr if the kind is unknown.
-const CardKind* find_card_kind(std::string_view type);
-/// Finds a kind whose real cards have a live port. Errors: invalid_input, with the reason and the kinds that have one.
-Result<const CardKind*> find_live_kind(std::string_view type);
 
 }  // namespace motionrack::rack

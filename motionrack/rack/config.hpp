@@ -105,7 +105,7 @@ struct Rtc5Settings {
 /// A card. Only the settings of its own type apply. Default values of the members are the rack file's defaults.
 struct RackCard {
     std::string name;             ///< name in wires: letters, digits, '_'
-    std::string type = "mcx314";  ///< a name in card_types()
+    std::string type = "mcx314";  ///< a name in card_type_names()
     std::optional<int> slot;      ///< 0 .. 20; always set by read_rack (the lowest free slot if the file gives none)
     Mcx314Settings mcx314;
     Databoard4002Settings databoard4002;

@@ -5,18 +5,10 @@
 namespace motionrack::rack {
 namespace {
 
-constexpr std::array<std::string_view, 6> card_type_names = {"mcx314",      "databoard4002",   "ioflex02",
-                                                             "grating_bus", "grating_decoder", "rtc5"};
 constexpr std::array<std::string_view, 2> axis_kinds = {"linear", "rotary"};
 
 constexpr std::array<Field, 1> rack_table = {
     field<&RackConfig::name>("name", 1, 200, "", "name of the rack in reports"),
-};
-
-constexpr std::array<Field, 2> card_table = {
-    required(with_choices(field<&RackCard::type>("type", 1, 32, "", "the kind of card"), card_type_names), "required"),
-    absent_means(field<&RackCard::slot>("slot", 0, slot_count - 1, "", "position of the card in the rack"),
-                 "the lowest free slot"),
 };
 
 constexpr std::array<Field, 18> axis_table = {
@@ -192,7 +184,13 @@ std::span<const Field> rack_fields() {
     return rack_table;
 }
 std::span<const Field> card_fields() {
-    return card_table;
+    static const std::array<Field, 2> table = {
+        required(with_choices(field<&RackCard::type>("type", 1, 32, "", "the kind of card"), card_type_names()),
+                 "required"),
+        absent_means(field<&RackCard::slot>("slot", 0, slot_count - 1, "", "position of the card in the rack"),
+                     "the lowest free slot"),
+    };
+    return table;
 }
 std::span<const Field> axis_fields() {
     return axis_table;

@@ -1,6 +1,7 @@
 // Reference page of the rack file, written from the reader's tables.
 #include <fmt/format.h>
 
+#include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/fields_table.hpp>
 
@@ -163,7 +164,7 @@ std::string rack_file_reference() {
     out += "## [controller]\n" + fields_table(controller_fields(), &rack.controller, &rack.controller);
     out += safety_text(rack.safety) + wires_text();
     out += "## Card types\n\n";
-    for (const CardType& type : card_types()) out += card_type_text(type);
+    for (const CardPlugin* plugin : card_plugins()) out += card_type_text(plugin->type);
     out.pop_back();
     return out;
 }

@@ -2,14 +2,76 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <motionrack/cards/grating_bus/map.hpp>
 #include <motionrack/rack/grating.hpp>
 #include <motionrack/rack/grating_card.hpp>
+#include <motionrack/rack/own_pins.hpp>
 
 namespace motionrack::rack {
 
 namespace {
 
 namespace gb = grating_bus;
+
+constexpr auto grating_bus_pins = own_pins<std::size(gb::map::pins)>(gb::map::pins);
+constexpr auto grating_decoder_pins = [] {
+    std::array<PinType, std::size(gb::map::scale_pins)> out{};
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = {gb::map::scale_pins[i].view(), PinDirection::input, gb::map::decoder_pins[i % 2].meaning};
+    return out;
+}();
+
+constexpr std::array<std::string_view, 4> grating_roles = {"first is host", "host", "slave", "remote"};
+constexpr std::array<std::string_view, 3> shifter_ways = {"as role", "out", "in"};
+
+constexpr std::array<Field, 15> grating_bus_settings = {
+    with_choices(field<&GratingBusSettings::role>(
+                     "role", 0, 0, "",
+                     "the host drives clock and addresses, slaves only read; the first card of the rack is the host by "
+                     "default; a remote one listens to a bus on another computer (motionrack "
+                     "frames feed)"),
+                 grating_roles),
+    field<&GratingBusSettings::scales>("scales", 1, 128, "", "scales of a frame"),
+    field<&GratingBusSettings::first>("first", 0, 127, "", "address of the first scale"),
+    field<&GratingBusSettings::addresses>(
+        "addresses", 0, 600, "",
+        "addresses of the scales in the order in which they are read, as in \"5, 2, 9\", each 0 to 127 and only once; "
+        "excludes scales and first; empty: from first on, as many as scales"),
+    field<&GratingBusSettings::t1_ns>("t1_ns", 0.1, 6'000, "ns", "wait until the decoder has latched"),
+    field<&GratingBusSettings::t2_ns>("t2_ns", 0.1, 6'000, "ns", "wait from the address to stable data"),
+    field<&GratingBusSettings::t3_ns>("t3_ns", 0.1, 6'000, "ns", "wait until the data are latched"),
+    field<&GratingBusSettings::clock_ns>("clock_ns", 0.1, 6'000, "ns", "period of the logic's clock"),
+    field<&GratingBusSettings::period_us>("period_us", 1, 100'000, "us", "period of the frames"),
+    field<&GratingBusSettings::offset_ns>("offset_ns", 0, 1e8, "ns", "time of a host's first frame, at most a period"),
+    with_choices(field<&GratingBusSettings::clock_shifter>("clock_shifter", 0, 0, "",
+                                                           "direction of the level shifter of clk, hold and read_n"),
+                 shifter_ways),
+    with_choices(field<&GratingBusSettings::address_shifter>("address_shifter", 0, 0, "",
+                                                             "direction of the level shifter of addr"),
+                 shifter_ways),
+    formerly("checks", field<&GratingBusSettings::verify_lines>("verify_lines", 0, 0, "",
+                                                                "frames with wrong line levels are not published")),
+    field<&GratingBusSettings::seed>("seed", 0, 2'147'483'647, "", "of the jitter that can be injected"),
+    field<&GratingBusSettings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
+                                              "time that one access of the processor takes"),
+};
+
+constexpr std::array<Field, 4> grating_decoder_settings = {
+    field<&GratingDecoderSettings::scales>("scales", 1, 128, "",
+                                           "number of scales that it counts, each with a pair of pins a0 b0, a1 b1 .."),
+    field<&GratingDecoderSettings::latch_ns>("latch_ns", 0, 6'000, "ns", "from HOLD to valid counts"),
+    field<&GratingDecoderSettings::output_ns>("output_ns", 0.1, 6'000, "ns", "from the address to valid data"),
+    field<&GratingDecoderSettings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
+                                                  "time that one access of the host takes"),
+};
+
+void* grating_bus_settings_of(RackCard& card) {
+    return &card.grating_bus;
+}
+
+void* grating_decoder_settings_of(RackCard& card) {
+    return &card.grating_decoder;
+}
 
 /// Common base of a motion card and a decoder.
 class Member : public Card {
@@ -216,8 +278,6 @@ std::shared_ptr<gb::Bus> bus_of(sim::Kernel& kernel, std::span<const std::unique
     return std::make_shared<gb::Bus>(kernel);
 }
 
-}  // namespace
-
 std::unique_ptr<Card> make_grating_bus(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                        std::span<const std::unique_ptr<Card>> before) {
     const bool first = std::none_of(before.begin(), before.end(), [](const auto& card) {
@@ -231,6 +291,37 @@ std::unique_ptr<Card> make_grating_decoder(sim::Kernel& kernel, const RackCard& 
                                            std::span<const std::unique_ptr<Card>> before) {
     return std::make_unique<DecoderCard>(kernel, config, log, bus_of(kernel, before));
 }
+
+constexpr std::string_view no_grating_bus_port =
+    "A card of the grating bus has no live port: its source names no registers, so those of the virtual one are this "
+    "project's own, and no real one has them.";
+
+}  // namespace
+
+constinit const CardPlugin grating_bus_plugin = {
+    .type = {.name = "grating_bus",
+             .doc = "motion card of a grating bus: all such cards of a rack read the same scales at the same instant, "
+                    "one as host, the others listening",
+             .chip_pins = grating_bus_pins,
+             .settings = grating_bus_settings,
+             .settings_of = grating_bus_settings_of,
+             .flaw = grating_bus_flaw},
+    .map = gb::card_map,
+    .make = make_grating_bus,
+    .no_live_port = no_grating_bus_port};
+
+constinit const CardPlugin grating_decoder_plugin = {
+    .type = {.name = "grating_decoder",
+             .doc = "decoder card of the grating bus: counts up to 128 scales and freezes them at HOLD; a rack of "
+                    "grating_bus cards without one gets one called `decoder`",
+             .chip_pins = grating_decoder_pins,
+             .settings = grating_decoder_settings,
+             .settings_of = grating_decoder_settings_of,
+             .flaw = grating_decoder_flaw,
+             .chip_pin_count = grating_decoder_pin_count},
+    .map = gb::decoder_map,
+    .make = make_grating_decoder,
+    .no_live_port = no_grating_bus_port};
 
 gb::Bus* grating_bus_of(Rack& rack) {
     for (const auto& card : rack.cards())

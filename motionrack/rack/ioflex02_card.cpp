@@ -1,16 +1,63 @@
 // The IOFLEX02 in a rack. All boards of a rack share one bus, on which each answers at its base address. It moves
 // nothing; its lines are wires.
+#include <fmt/format.h>
+
+#include <array>
 #include <motionrack/cards/ioflex02/image.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/ioflex02/model/bus.hpp>
 #include <motionrack/cards/ioflex02/model/card.hpp>
 #include <motionrack/rack/ioflex02_card.hpp>
+#include <motionrack/rack/own_pins.hpp>
 
 namespace motionrack::rack {
 
 namespace {
 
 namespace io = ioflex02;
+
+constexpr auto ioflex02_pins = own_pins<std::size(io::map::pins)>(io::map::pins);
+
+constexpr std::array<Field, 6> ioflex02_settings = {
+    field<&Ioflex02Settings::base_address>("base_address", 0, 0xFF00, "",
+                                           "address on the host's bus: a multiple of 256"),
+    field<&Ioflex02Settings::serial>("serial", 0, 65'535, "", "its serial number"),
+    field<&Ioflex02Settings::configuration_ms>(
+        "configuration_ms", 0, 60'000, "ms", "time from the last byte of a configuration image to the running project"),
+    formerly("loaded", field<&Ioflex02Settings::preloaded>(
+                           "preloaded", 0, 0, "", "true: its project runs from the start; false: the host loads it")),
+    absent_means(field<&Ioflex02Settings::image>(
+                     "image", 0, 2 * io::max_image_file, "",
+                     "its configuration image in hexadecimal digits, as `motionrack image show --hex` prints it: it "
+                     "runs from the start, and Init of the function libraries loads it"),
+                 "the built-in one"),
+    field<&Ioflex02Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
+                                            "time that one access of the host takes"),
+};
+
+void* ioflex02_of(RackCard& card) {
+    return &card.ioflex02;
+}
+
+/// Returns the header data of its image, if valid.
+Result<io::ImageInfo> ioflex02_image(const Ioflex02Settings& settings) {
+    MOTIONRACK_TRY(const auto file, io::bytes_of_hex(settings.image));
+    MOTIONRACK_TRY(const auto raw, io::unpacked(file));
+    return io::inspect(raw);
+}
+
+std::optional<CardFlaw> ioflex02_flaw(const RackCard& card, std::span<const RackCard> before) {
+    for (const RackCard& other : before)
+        if (other.type == card.type && other.ioflex02.serial == card.ioflex02.serial)
+            return CardFlaw{"serial", fmt::format("Cards {} and {} have the same serial number {}; it must be unique.",
+                                                  other.name, card.name, card.ioflex02.serial)};
+    if (!card.ioflex02.image.empty())
+        if (const auto raw = ioflex02_image(card.ioflex02); !raw) return CardFlaw{"image", raw.error().message};
+    if (card.ioflex02.base_address % 256 == 0) return std::nullopt;
+    return CardFlaw{"base_address",
+                    fmt::format("base_address of card {} is {}; it must be a multiple of 256, such as {}.", card.name,
+                                card.ioflex02.base_address, card.ioflex02.base_address / 256 * 256)};
+}
 
 io::Settings settings_of(const Ioflex02Settings& s) {
     io::Settings out;
@@ -96,8 +143,6 @@ class Ioflex02Card final : public Card {
     sim::VirtualPort port_;
 };
 
-}  // namespace
-
 std::unique_ptr<Card> make_ioflex02(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                     std::span<const std::unique_ptr<Card>> before) {
     std::shared_ptr<io::Bus> bus;
@@ -105,6 +150,24 @@ std::unique_ptr<Card> make_ioflex02(sim::Kernel& kernel, const RackCard& config,
         if (const auto* same = dynamic_cast<const Ioflex02Card*>(other.get())) bus = same->bus();
     return std::make_unique<Ioflex02Card>(kernel, config, log, std::move(bus));
 }
+
+}  // namespace
+
+constinit const CardPlugin ioflex02_plugin = {
+    .type = {.name = "ioflex02",
+             .doc = "position card for four encoders with calibration and time; it moves no axis, and its lines are "
+                    "wires",
+             .chip_pins = ioflex02_pins,
+             .settings = ioflex02_settings,
+             .settings_of = ioflex02_of,
+             .max_position = 8'388'607,
+             .flaw = ioflex02_flaw,
+             .measures_only = true},
+    .map = io::card_map,
+    .make = make_ioflex02,
+    .no_live_port =
+        "An IOFLEX02 has no live port: its hardware manual is not at hand, so the registers of the virtual one are "
+        "this project's own, and no real one has them."};
 
 std::vector<std::uint8_t> ioflex02_image_at(const RackConfig& config, std::uint32_t base_address) {
     for (const RackCard& card : config.cards)

@@ -55,9 +55,9 @@ RunningScanner* Rack::scanner(std::string_view name) {
 
 void Rack::build_cards() {
     for (const RackCard& card : config_.cards) {
-        const CardKind* kind = find_card_kind(card.type);
-        MOTIONRACK_ASSERT(kind != nullptr);  // read_rack knows the same types
-        cards_.push_back(kind->make(kernel_, card, log_, cards_));
+        const CardPlugin* plugin = find_card_plugin(card.type);
+        MOTIONRACK_ASSERT(plugin != nullptr);  // read_rack knows the same types
+        cards_.push_back(plugin->make(kernel_, card, log_, cards_));
     }
     for (const auto& card : cards_) card->complete();
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <motionrack/cards/rtc5/map.hpp>
 #include <motionrack/rack/catalogue.hpp>
+#include <motionrack/rack/own_pins.hpp>
 #include <motionrack/rack/rtc5_card.hpp>
 
 namespace motionrack::rack {
@@ -9,6 +10,21 @@ namespace motionrack::rack {
 namespace {
 
 using rtc5::Engine;
+
+constexpr auto rtc5_pins = [] {
+    auto out = own_pins<std::size(rtc5::map::pins)>(rtc5::map::pins.data());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i].bits = rtc5::map::lines[i].bits;
+    return out;
+}();
+
+constexpr std::array<Field, 1> rtc5_settings = {
+    field<&Rtc5Settings::list_memory>("list_memory", rtc5::min_list_memory, rtc5::max_list_memory, "",
+                                      "positions for list commands; a copy of the rack copies them all"),
+};
+
+void* rtc5_of(RackCard& card) {
+    return &card.rtc5;
+}
 
 /// Lists as at power-up, or the two halves of a small memory.
 rtc5::Settings settings_of(const Rtc5Settings& s) {
@@ -125,12 +141,26 @@ class Rtc5Card final : public Card {
     Host host_;
 };
 
-}  // namespace
-
 std::unique_ptr<Card> make_rtc5(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                 std::span<const std::unique_ptr<Card>>) {
     return std::make_unique<Rtc5Card>(kernel, config, log);
 }
+
+}  // namespace
+
+constinit const CardPlugin rtc5_plugin = {
+    .type = {.name = "rtc5",
+             .doc =
+                 "control of a laser scan head that marks moving parts; it moves no axis and has no bus: programs use "
+                 "the commands of its library",
+             .chip_pins = rtc5_pins,
+             .settings = rtc5_settings,
+             .settings_of = rtc5_of},
+    .map = rtc5::card_map,
+    .make = make_rtc5,
+    .no_live_port =
+        "An RTC5 has no live port: a real one is driven through its maker's DLL, and no source names the registers "
+        "behind it."};
 
 rtc5::Card* rtc5_card_of(Rack& rack, std::string_view name) {
     auto* card = dynamic_cast<Rtc5Card*>(rack.card(name));

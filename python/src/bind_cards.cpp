@@ -136,14 +136,14 @@ void write_register(RackHandle& world, const std::string& card, int bits, std::u
 std::string view(RackHandle& world, const std::string& card, bool clearing) {
     return run_exclusive(world, [&]() -> Result<std::string> {
         MOTIONRACK_TRY(rack::Card * on, rack::card_named(world.running(), card));
-        const rack::CardKind* kind = rack::find_card_kind(config_of_card(world, card).type);
-        if (kind->view == nullptr)
+        const rack::CardPlugin* plugin = rack::find_card_plugin(config_of_card(world, card).type);
+        if (plugin->view == nullptr)
             return fail(
                 ErrorKind::refused,
                 fmt::format("The registers of a {} cannot be read as a list; nothing was done. Read them one by one.",
-                            kind->type));
+                            plugin->type.name));
         MOTIONRACK_TRY(const rack::RegisterView seen,
-                       kind->view(rack::bus_of(*on, config_of_card(world, card)), clearing));
+                       plugin->view(rack::bus_of(*on, config_of_card(world, card)), clearing));
         return rack::view_text(seen, false);
     });
 }

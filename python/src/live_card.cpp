@@ -13,14 +13,14 @@ namespace {
 /// Maximum interval at which a wait checks for signals and stops.
 constexpr Duration listen_every = milliseconds(10);
 
-const rack::CardKind& kind_of(const std::string& type) {
-    return *value_of(rack::find_live_kind(type));
+const rack::CardPlugin& plugin_of(const std::string& type) {
+    return *value_of(rack::find_live_plugin(type));
 }
 
-std::unique_ptr<LiveDevice> device_at(const std::string& place, const rack::CardKind& kind, Interrupt& host,
+std::unique_ptr<LiveDevice> device_at(const std::string& place, const rack::CardPlugin& plugin, Interrupt& host,
                                       int select) {
     const live::PortSpec spec = value_of(live::read_port_spec(place));
-    if (kind.type == "mcx314") return value_of(LiveMcx314::open(spec, host));
+    if (plugin.type.name == "mcx314") return value_of(LiveMcx314::open(spec, host));
     if (select < 0 || select > 255)
         raise({ErrorKind::invalid_input,
                fmt::format("The card's number is {}; it must be 0 to 255. Nothing was opened.", select)});
@@ -30,7 +30,7 @@ std::unique_ptr<LiveDevice> device_at(const std::string& place, const rack::Card
 }  // namespace
 
 LiveCard::LiveCard(const std::string& place, const std::string& type, int select)
-    : place_(place), map_(kind_of(type).map()), device_(device_at(place, kind_of(type), host_, select)) {}
+    : place_(place), map_(plugin_of(type).map()), device_(device_at(place, plugin_of(type), host_, select)) {}
 
 LiveCard::~LiveCard() {
     if (!closed()) static_cast<void>(device_->stop());

@@ -39,8 +39,8 @@ int read(mr_rack* rack, const char* card, std::uint32_t address, Word* value) {
 Result<std::unique_ptr<Session>> open_session(std::string_view path_or_text) {
     if (!motionrack::live::names_real_card(path_or_text)) return Session::open(path_or_text, Session::Programs::yes);
     std::string reasons;
-    for (const motionrack::rack::CardKind& kind : motionrack::rack::card_kinds())
-        if (reasons.find(kind.no_live_port) == std::string::npos) reasons.append(" ").append(kind.no_live_port);
+    for (const motionrack::rack::CardPlugin* plugin : motionrack::rack::card_plugins())
+        if (reasons.find(plugin->no_live_port) == std::string::npos) reasons.append(" ").append(plugin->no_live_port);
     return motionrack::fail(
         ErrorKind::invalid_input,
         fmt::format("{} is the address of a real card, and the cards of a rack are virtual. Nothing was opened. A real "

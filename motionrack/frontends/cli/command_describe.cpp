@@ -27,7 +27,7 @@ struct DescribeOptions {
 /// Returns all card types: "mcx314, databoard4002".
 std::string card_types() {
     std::string out;
-    for (const rack::CardKind& kind : rack::card_kinds()) out.append(out.empty() ? "" : ", ").append(kind.type);
+    for (const std::string_view name : rack::card_type_names()) out.append(out.empty() ? "" : ", ").append(name);
     return out;
 }
 
@@ -56,14 +56,14 @@ int describe(const DescribeOptions& options) {
         fmt::print("{}", options.markdown ? panel::api_reference() : panel::openapi().dump(2) + "\n");
         return exit_done;
     }
-    const rack::CardKind* kind = rack::find_card_kind(options.what);
-    if (!kind) {
+    const rack::CardPlugin* plugin = rack::find_card_plugin(options.what);
+    if (!plugin) {
         print_error(
             fmt::format("Unknown topic '{}'. Known topics: rack-file, marking-job, sweep-file, gcode, safety, api, {}.",
                         options.what, card_types()));
         return exit_usage;
     }
-    const CardMap& map = kind->map();
+    const CardMap& map = plugin->map();
     fmt::print("{}", options.json       ? describe_json(map)
                      : options.markdown ? describe_markdown(map)
                                         : describe_text(map));

@@ -25,24 +25,24 @@ void print_registers(const rack::RegisterView& view, const RegistersOptions& opt
     fmt::print("{}", options.json ? rack::view_json(view) : rack::view_text(view, options.all));
 }
 
-Result<rack::RegisterView> live_view(const live::PortSpec& spec, const rack::CardKind& kind,
+Result<rack::RegisterView> live_view(const live::PortSpec& spec, const rack::CardPlugin& plugin,
                                      const RegistersOptions& options) {
-    MOTIONRACK_TRY(const live::OpenCard card, live::open_card(spec, kind.map()));
+    MOTIONRACK_TRY(const live::OpenCard card, live::open_card(spec, plugin.map()));
     Result<rack::RegisterView> view =
-        kind.view({card.registers, card.bytes, card.port.get(), options.select}, options.clear);
+        plugin.view({card.registers, card.bytes, card.port.get(), options.select}, options.clear);
     if (card.port->trouble()) return tl::unexpected<Error>(*card.port->trouble());
     return view;
 }
 
 int live_registers(const RegistersOptions& options) {
-    const auto kind = rack::find_live_kind(options.card.empty() ? "mcx314" : options.card);
-    if (!kind) {
-        print_error(kind.error().message);
+    const auto plugin = rack::find_live_plugin(options.card.empty() ? "mcx314" : options.card);
+    if (!plugin) {
+        print_error(plugin.error().message);
         return exit_usage;
     }
     const auto spec = live::read_port_spec(options.live);
     if (!spec) return report(spec.error());
-    const auto view = live_view(*spec, **kind, options);
+    const auto view = live_view(*spec, **plugin, options);
     if (!view) return report(view.error());
     print_registers(*view, options);
     return exit_done;
@@ -59,9 +59,9 @@ int virtual_registers(const RegistersOptions& options) {
         rack::Card& card = *rack.cards()[i];
         known += (known.empty() ? "" : ", ") + card.name();
         if (!options.card.empty() && options.card != card.name()) continue;
-        const rack::CardKind* const kind = rack::find_card_kind(config->cards[i].type);
-        if (!kind || !kind->view) continue;
-        const Result<rack::RegisterView> view = kind->view(rack::bus_of(card, config->cards[i]), options.clear);
+        const rack::CardPlugin* const plugin = rack::find_card_plugin(config->cards[i].type);
+        if (!plugin || !plugin->view) continue;
+        const Result<rack::RegisterView> view = plugin->view(rack::bus_of(card, config->cards[i]), options.clear);
         if (!view) return report(view.error());
         print_registers(*view, options);
         return exit_done;

@@ -154,7 +154,7 @@ Result<void> CardTable::pass_rack(std::int64_t ticks) {
 }
 
 Result<void> CardTable::open_rack(std::string_view path_or_text) {
-    if (live::names_real_card(path_or_text)) MOTIONRACK_CHECK(rack::find_live_kind("rtc5"));
+    if (live::names_real_card(path_or_text)) MOTIONRACK_CHECK(rack::find_live_plugin("rtc5"));
     MOTIONRACK_TRY(std::unique_ptr<rack::Session> opened, rack::Session::open(path_or_text));
     std::vector<std::unique_ptr<Card>> found;
     for (const rack::RackCard& each : opened->rack().config().cards)

@@ -1,4 +1,4 @@
-// Live ports of the card kinds: which have one, and the reasons of those that have none.
+// Live ports of the types of card: which have one, and the reasons of those that have none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,20 +16,20 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 std::string without_a_live_port(std::string_view type) {
-    const Result<const CardKind*> kind = find_live_kind(type);
-    return kind ? std::string() : kind.error().message;
+    const Result<const CardPlugin*> plugin = find_live_plugin(type);
+    return plugin ? std::string() : plugin.error().message;
 }
 
-TEST(CardKinds, HaveALivePortWithRegistersAndFunctionsOrAReasonForNone) {
-    for (const CardKind& kind : card_kinds()) {
-        const bool has_port = kind.no_live_port.empty();
-        EXPECT_EQ(kind.view != nullptr, has_port) << kind.type;
-        EXPECT_EQ(kind.library != nullptr, has_port) << kind.type;
-        EXPECT_EQ(find_live_kind(kind.type).has_value(), has_port) << kind.type;
+TEST(CardPlugins, HaveALivePortWithRegistersAndFunctionsOrAReasonForNone) {
+    for (const CardPlugin* plugin : card_plugins()) {
+        const bool has_port = plugin->no_live_port.empty();
+        EXPECT_EQ(plugin->view != nullptr, has_port) << plugin->type.name;
+        EXPECT_EQ(plugin->library != nullptr, has_port) << plugin->type.name;
+        EXPECT_EQ(find_live_plugin(plugin->type.name).has_value(), has_port) << plugin->type.name;
     }
 }
 
-TEST(CardKinds, WhoseRegistersAreNotTheirMakersHaveNoLivePort) {
+TEST(CardPlugins, WhoseRegistersAreNotTheirMakersHaveNoLivePort) {
     const auto others = HasSubstr("Nothing was opened. A real card is one of: mcx314, databoard4002.");
     EXPECT_THAT(without_a_live_port("ioflex02"),
                 AllOf(StartsWith("An IOFLEX02 has no live port: its hardware manual is not at hand"), others));
@@ -44,10 +44,11 @@ TEST(CardKinds, WhoseRegistersAreNotTheirMakersHaveNoLivePort) {
     EXPECT_EQ(without_a_live_port("databoard4002"), "");
 }
 
-TEST(CardKinds, WithoutALivePortAreOnThePageOfLivePortsWithTheirReasons) {
+TEST(CardPlugins, WithoutALivePortAreOnThePageOfLivePortsWithTheirReasons) {
     const std::string page =
         std::regex_replace(text_of(source_root / "docs/howto/live-port.md"), std::regex(R"(\s+)"), " ");
-    for (const CardKind& kind : card_kinds()) EXPECT_THAT(page, HasSubstr(std::string(kind.no_live_port))) << kind.type;
+    for (const CardPlugin* plugin : card_plugins())
+        EXPECT_THAT(page, HasSubstr(std::string(plugin->no_live_port))) << plugin->type.name;
 }
 
 }  // namespace

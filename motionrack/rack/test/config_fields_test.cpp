@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/template.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>
@@ -44,7 +45,7 @@ std::vector<FieldCase> all_fields() {
     add(rack_fields(), "rack", 'X', "");
     add(controller_fields(), "controller", 'X', "");
     add(card_fields(), "card.m", 'X', "");
-    for (const CardType& type : card_types()) add(type.settings, "card.m", 'X', "", type.name);
+    for (const std::string_view type : card_type_names()) add(find_card_type(type)->settings, "card.m", 'X', "", type);
     for (const auto& [letter, unit] : {std::pair{'X', "mm"}, std::pair{'A', "deg"}}) {
         add(axis_fields(), fmt::format("axis.{}", letter), letter, unit);
         add(motor_fields(), fmt::format("axis.{}.motor", letter), letter, unit);
@@ -227,7 +228,8 @@ TEST(RackReference, HasEveryKeyPinAndEnd) {
         EXPECT_THAT(page, HasSubstr('`' + with_unit(c.field->key, c.unit) + '`'));
         EXPECT_THAT(page, HasSubstr(std::string(c.field->doc)));
     }
-    for (const CardType& type : card_types()) {
+    for (const std::string_view name : card_type_names()) {
+        const CardType& type = *find_card_type(name);
         for (const PinType& pin : type.channel_pins)
             EXPECT_THAT(page, HasSubstr(fmt::format("`{}{}`", type.channel_name(0), pin.name)));
         // If the settings determine the number of pins, the first and the last of both kinds represent all.
@@ -242,7 +244,8 @@ TEST(RackReference, HasEveryKeyPinAndEnd) {
 }
 
 TEST(CardTypes, HaveUniquePinsAndChoicesThatTheReaderKnows) {
-    for (const CardType& type : card_types()) {
+    for (const CardPlugin* plugin : card_plugins()) {
+        const CardType& type = plugin->type;
         std::set<std::string> names;
         for (const CardPin& pin : pins_of(type)) EXPECT_TRUE(names.insert(pin.name).second) << pin.name;
         EXPECT_EQ(find_card_type(type.name), &type);
@@ -253,7 +256,7 @@ TEST(CardTypes, HaveUniquePinsAndChoicesThatTheReaderKnows) {
         const auto& choices = card_fields()[0].choices;
         EXPECT_NE(std::find(choices.begin(), choices.end(), type.name), choices.end());
     }
-    EXPECT_EQ(pins_of(card_types()[0]).size(), 4U * 23 + 3);
+    EXPECT_EQ(pins_of(mcx314_plugin.type).size(), 4U * 23 + 3);
 }
 
 TEST(DidYouMean, FindsTheNearestNameOnly) {

@@ -60,8 +60,8 @@ std::vector<SectionText> all_sections() {
         {rack_with("[scanner.s1.galvo]\n"), galvo_keys},
         {rack_with("[scanner.s1.laser]\n"), laser_keys},
     };
-    for (const CardType& type : card_types())
-        out.push_back({fmt::format("[card.c]\ntype = \"{}\"\n", type.name), type.settings});
+    for (const std::string_view type : card_type_names())
+        out.push_back({fmt::format("[card.c]\ntype = \"{}\"\n", type), find_card_type(type)->settings});
     for (SectionText& section : axis_sections()) out.push_back(std::move(section));
     for (SectionText& section : conveyor_sections()) out.push_back(std::move(section));
     return out;

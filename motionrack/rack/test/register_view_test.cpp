@@ -45,7 +45,7 @@ class RegisterViews : public testing::Test {
         port.write(mcx314::reg::WR0, static_cast<std::uint16_t>(0x0100 | code));
     }
     RegisterView view(bool clearing) {
-        return *find_card_kind("mcx314")->view(bus_of(*rack_.cards()[0], rack_.config().cards[0]), clearing);
+        return *find_card_plugin("mcx314")->view(bus_of(*rack_.cards()[0], rack_.config().cards[0]), clearing);
     }
 
     Rack rack_;

@@ -58,7 +58,7 @@ std::vector<Fault> faults(mr_rack* rack) {
 /// A rack of each card type alone, and those of the examples with all parts.
 std::vector<std::string> racks() {
     std::vector<std::string> out = {with_switches};
-    for (const rack::CardKind& kind : rack::card_kinds()) out.push_back(fmt::format("card.c1 = \"{}\"", kind.type));
+    for (const std::string_view type : rack::card_type_names()) out.push_back(fmt::format("card.c1 = \"{}\"", type));
     for (const char* example : {"racks/router.toml", "racks/marking.toml", "racks/stage.toml",
                                 "11_carriage/machine.toml", "13_stage/machine.toml", "14_line/machine.toml",
                                 "15_panel/demonstration.toml", "16_probe/machine.toml", "grating_bus/crate.toml"})

@@ -126,7 +126,7 @@ TEST(CRack, HasTheEventTraceOfTheCppRack) {
 TEST(CRack, EveryRegisterOfTheMapCanBePeekedOrIsRejectedByName) {
     World world;
     int known = 0;
-    for (const RegisterInfo& reg : rack::find_card_kind("mcx314")->map().registers) {
+    for (const RegisterInfo& reg : rack::find_card_plugin("mcx314")->map().registers) {
         const std::string name = (reg.per_axis ? "y." : "") + std::string(reg.name);
         std::uint64_t value = 0;
         if (mr_peek(world, "c1", name.c_str(), &value) == MR_OK)
