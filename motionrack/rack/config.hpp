@@ -11,6 +11,7 @@
 #include <motionrack/base/result.hpp>
 #include <motionrack/control/limits.hpp>
 #include <motionrack/rack/config_marking.hpp>
+#include <motionrack/rack/settings_box.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,16 +59,6 @@ struct Databoard4002Settings {
     std::int64_t bus_access_ns = 1'000;    ///< 0 .. 100,000 ns
 };
 
-/// Settings of a card of type ioflex02.
-struct Ioflex02Settings {
-    std::int64_t base_address = 0x2300;  ///< 0 .. FF00h, a multiple of 100h: address on the common bus
-    std::int64_t serial = 1;             ///< 0 .. 65,535
-    double configuration_ms = 2'000;     ///< 0 .. 60,000 ms from the image's last byte to the running project
-    bool preloaded = true;               ///< a project runs from power-up, without a download by the host
-    std::string image;                   ///< compressed image in hexadecimal digits; empty: the built-in image
-    std::int64_t bus_access_ns = 500;    ///< 0 .. 100,000 ns
-};
-
 /// Role of a grating-bus card; by default the first card of a rack is the host.
 enum class GratingRole : std::uint8_t { first_is_host, host, slave, remote };
 /// Direction of a level shifter of such a card.
@@ -107,9 +98,9 @@ struct RackCard {
     std::string name;             ///< name in wires: letters, digits, '_'
     std::string type = "mcx314";  ///< a name in card_type_names()
     std::optional<int> slot;      ///< 0 .. 20; always set by read_rack (the lowest free slot if the file gives none)
+    SettingsBox settings;         ///< those of a type that its plug-in alone knows
     Mcx314Settings mcx314;
     Databoard4002Settings databoard4002;
-    Ioflex02Settings ioflex02;
     GratingBusSettings grating_bus;
     GratingDecoderSettings grating_decoder;
     Rtc5Settings rtc5;

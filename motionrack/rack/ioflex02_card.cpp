@@ -16,6 +16,16 @@ namespace {
 
 namespace io = ioflex02;
 
+/// Keys of a rack file; settings_of() makes the model's settings of them.
+struct Ioflex02Settings {
+    std::int64_t base_address = 0x2300;  ///< 0 .. FF00h, a multiple of 100h: address on the common bus
+    std::int64_t serial = 1;             ///< 0 .. 65,535
+    double configuration_ms = 2'000;     ///< 0 .. 60,000 ms from the image's last byte to the running project
+    bool preloaded = true;               ///< a project runs from power-up, without a download by the host
+    std::string image;                   ///< compressed image in hexadecimal digits; empty: the built-in image
+    std::int64_t bus_access_ns = 500;    ///< 0 .. 100,000 ns
+};
+
 constexpr auto ioflex02_pins = own_pins<std::size(io::map::pins)>(io::map::pins);
 
 constexpr std::array<Field, 6> ioflex02_settings = {
@@ -35,8 +45,11 @@ constexpr std::array<Field, 6> ioflex02_settings = {
                                             "time that one access of the host takes"),
 };
 
+const Ioflex02Settings& ioflex02_in(const RackCard& card) {
+    return card.settings.get<Ioflex02Settings>();
+}
 void* ioflex02_of(RackCard& card) {
-    return &card.ioflex02;
+    return &card.settings.edit<Ioflex02Settings>();
 }
 
 /// Returns the header data of its image, if valid.
@@ -47,16 +60,17 @@ Result<io::ImageInfo> ioflex02_image(const Ioflex02Settings& settings) {
 }
 
 std::optional<CardFlaw> ioflex02_flaw(const RackCard& card, std::span<const RackCard> before) {
+    const Ioflex02Settings& own = ioflex02_in(card);
     for (const RackCard& other : before)
-        if (other.type == card.type && other.ioflex02.serial == card.ioflex02.serial)
+        if (other.type == card.type && ioflex02_in(other).serial == own.serial)
             return CardFlaw{"serial", fmt::format("Cards {} and {} have the same serial number {}; it must be unique.",
-                                                  other.name, card.name, card.ioflex02.serial)};
-    if (!card.ioflex02.image.empty())
-        if (const auto raw = ioflex02_image(card.ioflex02); !raw) return CardFlaw{"image", raw.error().message};
-    if (card.ioflex02.base_address % 256 == 0) return std::nullopt;
+                                                  other.name, card.name, own.serial)};
+    if (!own.image.empty())
+        if (const auto raw = ioflex02_image(own); !raw) return CardFlaw{"image", raw.error().message};
+    if (own.base_address % 256 == 0) return std::nullopt;
     return CardFlaw{"base_address",
                     fmt::format("base_address of card {} is {}; it must be a multiple of 256, such as {}.", card.name,
-                                card.ioflex02.base_address, card.ioflex02.base_address / 256 * 256)};
+                                own.base_address, own.base_address / 256 * 256)};
 }
 
 io::Settings settings_of(const Ioflex02Settings& s) {
@@ -86,9 +100,10 @@ class Ioflex02Card final : public Card {
   public:
     Ioflex02Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log, std::shared_ptr<io::Bus> bus)
         : name_(config.name),
-          card_(kernel, config.name, settings_of(config.ioflex02)),
+          card_(kernel, config.name, settings_of(ioflex02_in(config))),
           bus_(bus ? std::move(bus) : std::make_shared<io::Bus>(kernel, "ioflex")),
-          port_(kernel, *bus_, bus_->id(), bus_->interrupt_wire(), nanoseconds(config.ioflex02.bus_access_ns), &log) {
+          port_(kernel, *bus_, bus_->id(), bus_->interrupt_wire(), nanoseconds(ioflex02_in(config).bus_access_ns),
+                &log) {
         bus_->plug(card_);
     }
 
@@ -171,8 +186,8 @@ constinit const CardPlugin ioflex02_plugin = {
 
 std::vector<std::uint8_t> ioflex02_image_at(const RackConfig& config, std::uint32_t base_address) {
     for (const RackCard& card : config.cards)
-        if (card.type == io::card_map().name && card.ioflex02.base_address == base_address)
-            return *io::bytes_of_hex(card.ioflex02.image);
+        if (card.type == io::card_map().name && ioflex02_in(card).base_address == base_address)
+            return *io::bytes_of_hex(ioflex02_in(card).image);
     return {};
 }
 
