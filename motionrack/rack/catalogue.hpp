@@ -9,6 +9,7 @@
 #include <motionrack/rack/card_types.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/register_view.hpp>
+#include <motionrack/rack/stop_reactions.hpp>
 #include <motionrack/sim/input_log.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/position_function.hpp>
@@ -168,6 +169,7 @@ struct CardPlugin {
     /// Why a real card has no live port, a sentence; empty: it has one, with `view` and `library`. Nothing is written
     /// to a real card by a map that is not its maker's: that would set whatever is at these addresses.
     std::string_view no_live_port = {};
+    std::span<const StopReaction> stop_reactions = {};
 };
 
 extern const CardPlugin mcx314_plugin;

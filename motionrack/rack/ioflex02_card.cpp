@@ -166,6 +166,17 @@ std::unique_ptr<Card> make_ioflex02(sim::Kernel& kernel, const RackCard& config,
     return std::make_unique<Ioflex02Card>(kernel, config, log, std::move(bus));
 }
 
+void clear_ioflex02_outputs(Rack& rack, const StopReaction&) {
+    for (const auto& card : rack.cards())
+        if (auto* board = dynamic_cast<Ioflex02Card*>(card.get()); board != nullptr)
+            for (const std::uint32_t low_and_high : {io::offset("OUTL"), io::offset("OUTH")})
+                board->card().write(low_and_high, 0);
+}
+
+constexpr std::array<StopReaction, 1> ioflex02_stops = {
+    {{"ioflex02", every_stop, StopCategory::category_0, StopBy::latch, "its outputs go to 0; counting continues",
+      milliseconds(2), false, clear_ioflex02_outputs}}};
+
 }  // namespace
 
 constinit const CardPlugin ioflex02_plugin = {
@@ -182,7 +193,8 @@ constinit const CardPlugin ioflex02_plugin = {
     .make = make_ioflex02,
     .no_live_port =
         "An IOFLEX02 has no live port: its hardware manual is not at hand, so the registers of the virtual one are "
-        "this project's own, and no real one has them."};
+        "this project's own, and no real one has them.",
+    .stop_reactions = ioflex02_stops};
 
 std::vector<std::uint8_t> ioflex02_image_at(const RackConfig& config, std::uint32_t base_address) {
     for (const RackCard& card : config.cards)

@@ -1,13 +1,12 @@
-// The table of reactions, and those of the latch itself.
+// The table of reactions, and those of the latch itself; a card may have its own in its plug-in.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <initializer_list>
-#include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/mcx314/chip/general_outputs.hpp>
+#include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/grating_card.hpp>
-#include <motionrack/rack/ioflex02_card.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/rtc5_card.hpp>
 #include <motionrack/rack/stop_reactions.hpp>
@@ -25,8 +24,6 @@ constexpr std::uint32_t to(std::initializer_list<StopSource> sources) {
 using enum StopSource;
 using enum StopCategory;
 
-constexpr std::uint32_t every =
-    to({emergency_stop, stop_command, drive_alarm, limit_switch, watchdog, following_error});
 constexpr std::uint32_t but_the_button = to({stop_command, drive_alarm, limit_switch, watchdog, following_error});
 
 /// One slice of the driver; an edge ends a slice immediately.
@@ -66,13 +63,6 @@ void clear_analog_outputs(Rack& rack, const StopReaction&) {
     }
 }
 
-void clear_outputs(Rack& rack, const StopReaction&) {
-    for (const auto& card : rack.cards())
-        if (ioflex02::Card* found = ioflex02_card_of(rack, card->name()); found != nullptr)
-            for (const std::uint32_t low_and_high : {ioflex02::offset("OUTL"), ioflex02::offset("OUTH")})
-                found->write(low_and_high, 0);
-}
-
 void clear_general_outputs(Rack& rack, const StopReaction&) {
     for (const auto& card : rack.cards())
         if (auto* chip = dynamic_cast<mcx314::Chip*>(card->registers()); chip != nullptr)
@@ -101,10 +91,10 @@ constexpr std::array reactions = {
                  "the card ends the move by itself, without a ramp: 0 V", milliseconds(1), true},
     StopReaction{"databoard4002", to({stop_command, drive_alarm, following_error}), category_2, StopBy::drive,
                  "the axis decelerates with its own acceleration and holds its position", a_slice, true},
-    StopReaction{"rtc5", every, category_0, StopBy::latch,
+    StopReaction{"rtc5", every_stop, category_0, StopBy::latch,
                  "the laser goes off, lists end, and starts are no longer accepted; the mirrors stay where they are",
                  milliseconds(2), false, laser_off},
-    StopReaction{"belt", every, category_1, StopBy::latch,
+    StopReaction{"belt", every_stop, category_1, StopBy::latch,
                  "belts and tables stop with their own deceleration, then power off", milliseconds(2), true,
                  stop_belts},
     StopReaction{"stage", to({emergency_stop}), category_1, StopBy::latch,
@@ -112,15 +102,23 @@ constexpr std::array reactions = {
                  stop_stages},
     StopReaction{"stage", but_the_button, category_2, StopBy::latch,
                  "stages decelerate along their profile and hold their positions", milliseconds(2), true, stop_stages},
-    StopReaction{"grating_bus", every, category_0, StopBy::latch,
+    StopReaction{"grating_bus", every_stop, category_0, StopBy::latch,
                  "analog outputs without a loop go to 0 V; frames continue", milliseconds(2), false,
                  clear_analog_outputs},
-    StopReaction{"ioflex02", every, category_0, StopBy::latch,
-                 "its outputs go to 0; counting continues", milliseconds(2), false, clear_outputs},
-    StopReaction{"spindle", every, category_0, StopBy::drive,
-                 "spindle and coolant go off", a_slice},
 };
 // clang-format on
+
+constexpr StopReaction spindle_off{"spindle", every_stop, category_0, StopBy::drive, "spindle and coolant go off",
+                                   a_slice};
+
+/// In the order in which the latch executes them.
+template <class Visitor>
+void each_reaction(const Visitor& visit) {
+    for (const StopReaction& reaction : reactions) visit(reaction);
+    for (const CardPlugin* plugin : card_plugins())
+        for (const StopReaction& reaction : plugin->stop_reactions) visit(reaction);
+    visit(spindle_off);
+}
 
 constexpr std::array states = {
     StopState{"disabled", "disabled"},
@@ -140,13 +138,16 @@ constexpr std::array states = {
 
 }  // namespace
 
-std::span<const StopReaction> stop_reactions() {
-    return reactions;
+std::vector<StopReaction> stop_reactions() {
+    std::vector<StopReaction> out;
+    each_reaction([&](const StopReaction& reaction) { out.push_back(reaction); });
+    return out;
 }
 
 void react(Rack& rack, StopSource source) {
-    for (const StopReaction& reaction : reactions)
+    each_reaction([&](const StopReaction& reaction) {
         if (reaction.act != nullptr && reaction.is_to(source)) reaction.act(rack, reaction);
+    });
 }
 
 std::span<const StopState> stop_states() {

@@ -1,5 +1,5 @@
-// Stop reactions of each card and part of a rack, as a table. The latch executes it, the tests measure it, and the page
-// docs/explanations/safety.md shows it.
+// Stop reactions of each card and part of a rack, as rows. The latch executes them, the tests measure them, and the
+// page docs/explanations/safety.md shows them.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace motionrack::rack {
 
@@ -38,7 +39,15 @@ struct StopReaction {
     constexpr bool is_to(StopSource source) const { return (sources & 1u << static_cast<unsigned>(source)) != 0; }
 };
 
-std::span<const StopReaction> stop_reactions();
+/// Bits of all sources.
+inline constexpr std::uint32_t every_stop = [] {
+    std::uint32_t out = 0;
+    for (const StopSource source : stop_sources) out |= 1u << static_cast<unsigned>(source);
+    return out;
+}();
+
+/// All reactions: those of the table in stop_reactions.cpp, and those of the plug-ins of cards.
+std::vector<StopReaction> stop_reactions();
 /// Executes the reactions of the latch itself to this source. Call between runs.
 void react(Rack& rack, StopSource source);
 
