@@ -88,11 +88,6 @@ struct GratingDecoderSettings {
     std::int64_t bus_access_ns = 500;  ///< 0 .. 100,000 ns
 };
 
-/// Settings of a card of type rtc5; the model's are in cards/rtc5/model/settings.hpp.
-struct Rtc5Settings {
-    std::int64_t list_memory = 1 << 20;  ///< 16 .. 1,048,576 positions
-};
-
 /// A card. Only the settings of its own type apply. Default values of the members are the rack file's defaults.
 struct RackCard {
     std::string name;             ///< name in wires: letters, digits, '_'
@@ -103,7 +98,6 @@ struct RackCard {
     Databoard4002Settings databoard4002;
     GratingBusSettings grating_bus;
     GratingDecoderSettings grating_decoder;
-    Rtc5Settings rtc5;
 };
 
 // ---- Axes

@@ -11,6 +11,11 @@ namespace {
 
 using rtc5::Engine;
 
+/// Keys of a rack file; settings_of() makes the model's settings of them.
+struct Rtc5Settings {
+    std::int64_t list_memory = 1 << 20;  ///< 16 .. 1,048,576 positions
+};
+
 constexpr auto rtc5_pins = [] {
     auto out = own_pins<std::size(rtc5::map::pins)>(rtc5::map::pins.data());
     for (std::size_t i = 0; i < out.size(); ++i) out[i].bits = rtc5::map::lines[i].bits;
@@ -23,7 +28,7 @@ constexpr std::array<Field, 1> rtc5_settings = {
 };
 
 void* rtc5_of(RackCard& card) {
-    return &card.rtc5;
+    return &card.settings.edit<Rtc5Settings>();
 }
 
 /// Lists as at power-up, or the two halves of a small memory.
@@ -85,7 +90,9 @@ class Host final : public sim::VirtualHost {
 class Rtc5Card final : public Card {
   public:
     Rtc5Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log)
-        : name_(config.name), card_(kernel, config.name, settings_of(config.rtc5)), host_(kernel, card_, log) {}
+        : name_(config.name),
+          card_(kernel, config.name, settings_of(config.settings.get<Rtc5Settings>())),
+          host_(kernel, card_, log) {}
 
     rtc5::Card& card() { return card_; }
 
