@@ -1,38 +1,18 @@
-// A card as a part: the quantities and faults that it names itself, and the values of its faults.
+// A card as a part: the quantities and faults that it names itself, whose values its plug-in has.
 #include <algorithm>
-#include <array>
 #include <motionrack/base/result.hpp>
-#include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/part_catalogue.hpp>
 #include <motionrack/rack/rack.hpp>
-#include <motionrack/rack/table_part.hpp>
+#include <span>
 
 namespace motionrack::rack {
 
 namespace {
 
-/// Less than half a period, in steps of 0.1 ns.
-double max_frame_jitter_ns(const RackCard& card) {
-    return std::min(card.grating_bus.period_us * 500 - 0.1, max_push);
-}
-
-/// Faults of all types of card; each card names those that it has.
-constexpr std::array<FaultRow<RackCard>, 11> card_faults = {{
-    {"watchdog.hang", 0, 1, "", "1: the firmware hangs until the watchdog restarts it"},
-    {"esl.broken", 0, 1, "", "1: the wire of the limit switch on the left is broken; 0 repairs it"},
-    {"esr.broken", 0, 1, "", "1: the wire of the limit switch on the right is broken; 0 repairs it"},
-    {"ems.broken", 0, 1, "", "1: the wire of the emergency stop is broken; 0 repairs it"},
-    {"ref.broken", 0, 1, "", "1: the wire of the reference switch is broken; 0 repairs it"},
-    {"off", 0, 1, "", "1: the card has no power; 0: power returns, the card is reset"},
-    {"reset", 0, 1, "", "1: the card is reset"},
-    {"late", 0, max_push, "ns", "delay of the frames of the slave"},
-    {"miss_edge", 0, max_push, "edges", "number of the next edges of HOLD that the slave misses"},
-    {"jitter", 0, 0, "ns", "maximum delay of the host's frames", nullptr, max_frame_jitter_ns},
-    {"no_latch", 0, 1, "", "1: the decoder does not latch its counts; 0 repairs it"},
-}};
-
 class CardPart final : public Part {
   public:
-    CardPart(Card& card, const RackCard& config) : card_(card), config_(config) {}
+    CardPart(Card& card, const RackCard& config)
+        : card_(card), config_(config), faults_(find_card_plugin(config.type)->faults) {}
 
     const std::string& name() const override { return card_.name(); }
     std::string subject() const override { return "Card " + name(); }
@@ -53,9 +33,10 @@ class CardPart final : public Part {
         return {names.begin(), names.end()};
     }
     FaultRange fault_range(std::string_view fault) const override {
-        const FaultRow<RackCard>* row = find_row(std::span<const FaultRow<RackCard>>(card_faults), fault);
-        MOTIONRACK_ASSERT(row != nullptr);  // a test covers all rows
-        return range_of_row(*row, config_);
+        const auto row =
+            std::find_if(faults_.begin(), faults_.end(), [&](const CardFault& one) { return one.name == fault; });
+        MOTIONRACK_ASSERT(row != faults_.end());  // a test covers all rows
+        return {std::string(row->unit), row->doc, row->min, row->max_of == nullptr ? row->max : row->max_of(config_)};
     }
     sim::DeviceId device_of(std::string_view) const override { return card_.device(); }
     bool inject(sim::Kernel& kernel, std::string_view fault, double value) override {
@@ -65,6 +46,7 @@ class CardPart final : public Part {
   private:
     Card& card_;
     const RackCard& config_;
+    std::span<const CardFault> faults_;
 };
 
 void add_card_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {

@@ -155,6 +155,14 @@ struct CardBus {
 /// Bus of a virtual card.
 CardBus bus_of(Card& card, const RackCard& config);
 
+/// Values of a fault that cards of a type may have; Card::fault_names() says which a card has.
+struct CardFault {
+    std::string_view name;
+    double min, max;
+    std::string_view unit, doc;
+    double (*max_of)(const RackCard& card) = nullptr;  ///< replaces max; may be nullptr
+};
+
 /// One type of card, complete. Each is one object, in the file of its card (NAME_card.cpp).
 struct CardPlugin {
     CardType type;            ///< what a rack file can say of it
@@ -170,6 +178,7 @@ struct CardPlugin {
     /// to a real card by a map that is not its maker's: that would set whatever is at these addresses.
     std::string_view no_live_port = {};
     std::span<const StopReaction> stop_reactions = {};
+    std::span<const CardFault> faults = {};
 };
 
 extern const CardPlugin mcx314_plugin;

@@ -349,6 +349,14 @@ Result<RegisterView> databoard4002_view(const CardBus& bus, bool) {
     return view_databoard4002(*bus.bytes, *bus.host, bus.select);
 }
 
+constexpr std::array<CardFault, 5> databoard4002_faults = {{
+    {"watchdog.hang", 0, 1, "", "1: the firmware hangs until the watchdog restarts it"},
+    {"esl.broken", 0, 1, "", "1: the wire of the limit switch on the left is broken; 0 repairs it"},
+    {"esr.broken", 0, 1, "", "1: the wire of the limit switch on the right is broken; 0 repairs it"},
+    {"ems.broken", 0, 1, "", "1: the wire of the emergency stop is broken; 0 repairs it"},
+    {"ref.broken", 0, 1, "", "1: the wire of the reference switch is broken; 0 repairs it"},
+}};
+
 }  // namespace
 
 constinit const CardPlugin databoard4002_plugin = {
@@ -373,7 +381,8 @@ constinit const CardPlugin databoard4002_plugin = {
     .map = db::card_map,
     .make = make_databoard4002,
     .view = databoard4002_view,
-    .library = databoard4002_library};
+    .library = databoard4002_library,
+    .faults = databoard4002_faults};
 
 const db::Card* databoard4002_card_of(Rack& rack, std::string_view name) {
     const auto* found = dynamic_cast<const Databoard4002Card*>(rack.card(name));

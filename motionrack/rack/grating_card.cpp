@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <motionrack/cards/grating_bus/map.hpp>
+#include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/grating.hpp>
 #include <motionrack/rack/grating_card.hpp>
 #include <motionrack/rack/own_pins.hpp>
@@ -292,6 +293,21 @@ std::unique_ptr<Card> make_grating_decoder(sim::Kernel& kernel, const RackCard& 
     return std::make_unique<DecoderCard>(kernel, config, log, bus_of(kernel, before));
 }
 
+/// Less than half a period, in steps of 0.1 ns.
+double max_frame_jitter_ns(const RackCard& card) {
+    return std::min(card.grating_bus.period_us * 500 - 0.1, max_push);
+}
+
+constexpr std::array<CardFault, 5> grating_bus_faults = {{
+    {"off", 0, 1, "", "1: the card has no power; 0: power returns, the card is reset"},
+    {"reset", 0, 1, "", "1: the card is reset"},
+    {"late", 0, max_push, "ns", "delay of the frames of the slave"},
+    {"miss_edge", 0, max_push, "edges", "number of the next edges of HOLD that the slave misses"},
+    {"jitter", 0, 0, "ns", "maximum delay of the host's frames", max_frame_jitter_ns},
+}};
+constexpr std::array<CardFault, 1> grating_decoder_faults = {
+    {{"no_latch", 0, 1, "", "1: the decoder does not latch its counts; 0 repairs it"}}};
+
 constexpr std::string_view no_grating_bus_port =
     "A card of the grating bus has no live port: its source names no registers, so those of the virtual one are this "
     "project's own, and no real one has them.";
@@ -308,7 +324,8 @@ constinit const CardPlugin grating_bus_plugin = {
              .flaw = grating_bus_flaw},
     .map = gb::card_map,
     .make = make_grating_bus,
-    .no_live_port = no_grating_bus_port};
+    .no_live_port = no_grating_bus_port,
+    .faults = grating_bus_faults};
 
 constinit const CardPlugin grating_decoder_plugin = {
     .type = {.name = "grating_decoder",
@@ -321,7 +338,8 @@ constinit const CardPlugin grating_decoder_plugin = {
              .chip_pin_count = grating_decoder_pin_count},
     .map = gb::decoder_map,
     .make = make_grating_decoder,
-    .no_live_port = no_grating_bus_port};
+    .no_live_port = no_grating_bus_port,
+    .faults = grating_decoder_faults};
 
 gb::Bus* grating_bus_of(Rack& rack) {
     for (const auto& card : rack.cards())

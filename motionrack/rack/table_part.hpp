@@ -30,8 +30,8 @@ struct FaultRow {
     std::string_view name;
     double min, max;
     std::string_view unit, doc;
-    /// Returns the device that accepts the fault; nothing if it is missing. nullptr: that of the card.
-    std::optional<sim::DeviceId> (*device)(const Running& running) = nullptr;
+    /// Returns the device that accepts the fault; nothing if it is missing.
+    std::optional<sim::DeviceId> (*device)(const Running& running);
     double (*max_of)(const Running& running) = nullptr;  ///< replaces max; may be nullptr
 };
 
@@ -43,11 +43,6 @@ const Row* find_row(std::span<const Row> rows, std::string_view name) {
     for (const Row& row : rows)
         if (row.name == name) return &row;
     return nullptr;
-}
-
-template <class Running>
-FaultRange range_of_row(const FaultRow<Running>& row, const Running& running) {
-    return {std::string(row.unit), row.doc, row.min, row.max_of == nullptr ? row.max : row.max_of(running)};
 }
 
 template <class Running>
@@ -80,7 +75,8 @@ class TablePart : public Part {
     }
     bool can_have(std::string_view fault) const final { return find_row(faults_, fault)->device(running_).has_value(); }
     FaultRange fault_range(std::string_view fault) const override {
-        return range_of_row(*find_row(faults_, fault), running_);
+        const FaultRow<Running>& row = *find_row(faults_, fault);
+        return {std::string(row.unit), row.doc, row.min, row.max_of == nullptr ? row.max : row.max_of(running_)};
     }
     sim::DeviceId device_of(std::string_view fault) const final { return *find_row(faults_, fault)->device(running_); }
     bool inject(sim::Kernel& kernel, std::string_view fault, double value) final {
