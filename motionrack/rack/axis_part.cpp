@@ -147,6 +147,12 @@ class AxisPart final : public TablePart<RunningAxis> {
         return QuantityLimits{here - farthest, here + farthest};
     }
     Result<std::string> fault_to_set(std::string_view quantity_name, double value, Instant now) override;
+    std::optional<std::string> describe(const sim::Condition& condition, const sim::Kernel& kernel) const override {
+        const bool own =
+            condition.device == running_.machine->id() || (running_.servo && condition.device == running_.servo->id());
+        if (!own) return std::nullopt;
+        return parts::describe(condition, kernel.device_name(condition.device));
+    }
 
   private:
     const PushRow* push_of(std::string_view quantity_name) const {

@@ -42,6 +42,10 @@ class CardPart final : public Part {
     bool inject(sim::Kernel& kernel, std::string_view fault, double value) override {
         return card_.fault(fault, value, kernel.now());
     }
+    std::optional<std::string> describe(const sim::Condition& condition, const sim::Kernel&) const override {
+        if (!card_.speaks_for(condition.device)) return std::nullopt;
+        return card_.describe(condition);
+    }
 
   private:
     Card& card_;

@@ -17,6 +17,10 @@ Result<std::string> Part::fault_to_set(std::string_view quantity_name, double, I
                                                 full_name(quantity_name)));
 }
 
+std::optional<std::string> Part::describe(const sim::Condition&, const sim::Kernel&) const {
+    return std::nullopt;
+}
+
 tl::unexpected<Error> Part::no_such_quantity(std::string_view quantity_name) {
     std::vector<std::string> known;
     for (Quantity& one : quantities()) known.push_back(std::move(one.name));

@@ -84,6 +84,9 @@ class Part {
     /// Injects a fault that the part can have, now. Returns false if the part cannot have it with this value.
     virtual bool inject(sim::Kernel& kernel, std::string_view fault, double value) = 0;
 
+    /// Returns a condition of one of the part's devices as a sentence; nothing for those of other devices.
+    virtual std::optional<std::string> describe(const sim::Condition& condition, const sim::Kernel& kernel) const;
+
   protected:
     /// "X.position_mm".
     std::string full_name(std::string_view quantity_name) const;

@@ -347,18 +347,8 @@ std::string Rack::describe(const sim::Condition& condition) {
             "{}: at {:.6f} s this wire is part of a loop and did not settle after {} changes; it was left as it was. "
             "Check the section [wires] of the rack file",
             kernel_.wire_name(static_cast<sim::WireId>(condition.a)), to_seconds(condition.at), condition.b);
-    for (const RunningAxis& axis : axes_)
-        if (axis.machine->id() == condition.device || (axis.servo && axis.servo->id() == condition.device))
-            return parts::describe(condition, kernel_.device_name(condition.device));
-    for (const RunningStage& stage : stages_)
-        if (stage.processor != nullptr && stage.processor->id() == condition.device &&
-            stage.config.output == condition.a)
-            return describe_loop(condition, stage.config);
-    for (const RunningStage& stage : stages_)
-        if (stage.motor->id() == condition.device || stage.scale->id() == condition.device)
-            return parts::describe(condition, stage.config.name);
-    for (const auto& card : cards_)
-        if (card->speaks_for(condition.device)) return card->describe(condition);
+    for (const auto& part : parts_)
+        if (std::optional<std::string> text = part->describe(condition, kernel_)) return *std::move(text);
     return fmt::format("{}: condition {} ({}, {})", kernel_.device_name(condition.device), condition.code, condition.a,
                        condition.b);
 }

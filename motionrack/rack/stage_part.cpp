@@ -75,6 +75,14 @@ class StagePart final : public TablePart<RunningStage> {
     explicit StagePart(RunningStage& stage) : TablePart(stage.config.name, {}, stage, stage_quantities, stage_faults) {}
 
     std::string subject() const override { return "Stage " + name(); }
+    std::optional<std::string> describe(const sim::Condition& condition, const sim::Kernel&) const override {
+        const sim::DeviceId device = condition.device;
+        if (running_.processor != nullptr && running_.processor->id() == device &&
+            running_.config.output == condition.a)
+            return describe_loop(condition, running_.config);
+        if (running_.motor->id() != device && running_.scale->id() != device) return std::nullopt;
+        return parts::describe(condition, name());
+    }
 };
 
 void add_stage_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
