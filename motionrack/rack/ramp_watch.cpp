@@ -46,14 +46,29 @@ void RampWatch::keep(std::size_t i, std::int64_t count) {
     counts.back() = count;
 }
 
+/// Returns true if the pulses have ended without a ramp: nothing followed within a window. In a dense path, an axis may
+/// have no pulse in one segment, and more than its share in the one before.
+bool RampWatch::ends_abruptly(std::size_t i, Instant now) {
+    const JumpLaw& law = watched_[i].law;
+    const double rate = std::fabs(rate_of(i, now)), before = std::exchange(state_.rates[i], rate);
+    if (rate != 0) {
+        state_.rest_looks[i] = 0;
+        return false;
+    }
+    if (state_.rest_looks[i]++ == 0) {
+        state_.rests_from[i] = now;
+        state_.ended_hz[i] = std::min(before, law.max_hz(std::span{state_.counts[i]}.first(counts_kept - 1)));
+    }
+    return state_.rest_looks[i] == static_cast<std::int64_t>(law.samples) && state_.ended_hz[i] > law.end_hz;
+}
+
 void RampWatch::judge(std::size_t i, Instant now) {
     const std::array<std::int64_t, counts_kept>& counts = state_.counts[i];
     const std::size_t samples = watched_[i].law.samples, last = counts_kept - 1;
-    const JumpLaw& law = watched_[i].law;
-    const double rate = std::fabs(rate_of(i, now)), before = std::exchange(state_.rates[i], rate);
-    const bool ends_abruptly = rate == 0 && std::min(before, law.max_hz(std::span{counts}.first(last))) > law.end_hz;
-    if (ends_abruptly || law.jump_hz(counts[last - 2 * samples], counts[last - samples], counts[last]) > 0)
-        state_.jumped[static_cast<std::size_t>(rack_.axes()[watched_[i].axis].config.index())] = now + Duration{1};
+    Instant& jumped = state_.jumped[static_cast<std::size_t>(rack_.axes()[watched_[i].axis].config.index())];
+    if (ends_abruptly(i, now)) jumped = std::max(jumped, state_.rests_from[i] + Duration{1});
+    if (watched_[i].law.jump_hz(counts[last - 2 * samples], counts[last - samples], counts[last]) > 0)
+        jumped = now + Duration{1};
 }
 
 void RampWatch::on_scheduled(Instant now) {

@@ -58,12 +58,16 @@ class RampWatch final : public sim::Device {
         Instant since = never;  ///< earlier velocity steps are ignored
         std::array<std::array<std::int64_t, counts_kept>, control::axis_count> counts{};  ///< newest last
         std::array<double, control::axis_count> rates{};                                  ///< pulses/s at the last look
+        std::array<std::int64_t, control::axis_count> rest_looks{};  ///< with a rate of 0, up to the last look
+        std::array<Instant, control::axis_count> rests_from{};       ///< the first of them
+        std::array<double, control::axis_count> ended_hz{};          ///< highest rate possible before the first of them
         /// One tick after the last velocity step of each axis; 0: none.
         std::array<Instant, control::axis_count> jumped{};
     };
     std::int64_t count_of(std::size_t i, Instant now) const;
     double rate_of(std::size_t i, Instant now) const;
     void keep(std::size_t i, std::int64_t count);
+    bool ends_abruptly(std::size_t i, Instant now);
     void judge(std::size_t i, Instant now);
 
     Rack& rack_;
