@@ -76,9 +76,9 @@ double LookAheadPlanner::junction_velocity2(const Last& before, const Geometry& 
 }
 
 /// The hardware's pulse rate continues through the junction of two lines, and may stand for a higher velocity behind
-/// it: from line to line of a curve, and at a corner where more axes move on. Part of the deceleration of the move
-/// before makes up for that. At a corner the hardware is asked for the lesser rate, so that the plan need not show it.
-/// An arc may begin with a higher rate than its own, which it must decelerate from as well.
+/// it: from line to line of a curve, and at a corner or behind an arc where more axes move on. Part of the deceleration
+/// of the move before makes up for that. At a corner the hardware is asked for the lesser rate, so that the plan need
+/// not show it. An arc may begin with a higher rate than its own, which it must decelerate from as well.
 LookAheadPlanner::Gain LookAheadPlanner::gain_of(const Last& before, const Geometry& path) const {
     constexpr double min_cosine = 0.98;
     if (drive_ == nullptr) return {};
@@ -86,7 +86,7 @@ LookAheadPlanner::Gain LookAheadPlanner::gain_of(const Last& before, const Geome
         const double ratio = drive_->velocity_ratio(before.path, path);
         return {1, false, std::max(1.0, ratio * ratio)};
     }
-    if (path.shape != PathShape::line || before.path.shape != PathShape::line) return {};
+    if (path.shape != PathShape::line || before.path.shape == PathShape::nothing) return {};
     double cosine = 0;
     for (std::size_t i = 0; i < 3; ++i) cosine += before.path.tangent_out[i] * path.tangent_in[i];
     const double ratio = drive_->velocity_ratio(before.path, path);

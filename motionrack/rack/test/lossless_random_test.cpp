@@ -33,6 +33,11 @@ TEST(LosslessAtRandom, AStopAtTheBeginOfAChordKeepsThePosition) {
     drive_one(864005568);
 }
 
+// A line behind an arc may have more axes, and so a higher velocity at the pulse rate of the arc.
+TEST(LosslessAtRandom, AnArcSlowsEnoughForALineOfMoreAxes) {
+    drive_one(771007604, Arcs::some);
+}
+
 // A short arc or line has fewer pulses than its length where both its ends are rounded, or where an arc before it ends
 // beside its target.
 TEST(LosslessAtRandom, NoSegmentIsLateWhereAMoveHasFewPulses) {
@@ -47,7 +52,7 @@ TEST(LosslessAtRandom, AStopSlowsWhereAMotionAcceleratesOnAnArc) {
 // A segment with one pulse of an axis gives it a high rate for a fraction of a millisecond, and the next has none of
 // it.
 TEST(LosslessAtRandom, AStopInAShallowChordKeepsThePosition) {
-    drive_one(445961594, Arcs::some);
+    for (const std::uint64_t seed : {445961594, 771004124}) drive_one(seed, Arcs::some);
 }
 
 }  // namespace
