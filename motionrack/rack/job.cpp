@@ -151,6 +151,7 @@ Result<void> Job::drive_by_stream(control::AxisGroup& axes, const control::Execu
     listen(watch.observed());
     settings_.commands->attach(nullptr);
     rack_.set_stop_flag(nullptr);
+    rack_.on_slice(slice, [this] { listen({}); });  // after a stop by the machine the run continues without the path
     return ended;
 }
 

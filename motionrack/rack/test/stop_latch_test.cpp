@@ -1,4 +1,5 @@
 // A job that must stop: in every state, from every source, and nothing moves after it.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,6 +24,7 @@ const char* const one_move = "G21 G90 F1200\nG1 X80\nM2\n";
 struct StoppedRun {
     JobOutcome outcome;
     RackConfig config;
+    double observed_s = 0;  ///< the last progress of the run
     double x() const { return outcome.axes[0].actual_end; }
     std::string error() const { return outcome.ended ? std::string() : outcome.ended.error().message; }
 };
@@ -38,7 +40,13 @@ StoppedRun run_stopped(const std::string& rack, const std::string& program, cons
     auto job = RecordedJob::create(request, {});
     EXPECT_TRUE(job) << job.error().message;
     test::RackWatch watch((*job)->rack());
-    return {(*job)->run(nullptr, [&](const JobProgress&) { watch.poll(); }), request.config};
+    StoppedRun out;
+    out.config = request.config;
+    out.outcome = (*job)->run(nullptr, [&](const JobProgress& progress) {
+        watch.poll();
+        out.observed_s = progress.seconds;
+    });
+    return out;
 }
 
 void expect_stopped(const StoppedRun& ran, double x, const std::string& words) {
@@ -66,6 +74,17 @@ TEST(LatchedStop, InADwellOfAJerkLimitedMachineEndsTheProgram) {
     expect_stopped(run_stopped(jerk, dwelling, {"estop=0@1.5s", "estop=1@1.7s"}), 20, "emergency stop");
     expect_stopped(run_stopped(jerk, dwelling, {"estop=0@1.5s", "estop=1@1.7s"}, {"feed=1@0.1s"}), 20,
                    "emergency stop");
+}
+
+TEST(LatchedStop, IsObservedUntilItsEffectShowsAlsoInARunThatTakesCommands) {
+    const std::vector<std::string> button = {"estop=0@1s"};
+    const double ended_s = to_seconds(run_stopped(stop_axes, dwelling, button, {"feed=1@0.1s"}).outcome.time);
+    // A command makes a slice of the time in which the motors are looked at.
+    const StoppedRun ran =
+        run_stopped(stop_axes, dwelling, button, {"feed=1@0.1s", fmt::format("feed=1@{:.4f}s", ended_s + 0.01)});
+    expect_stopped(ran, 20, "emergency stop");
+    EXPECT_EQ(to_seconds(ran.outcome.time), ended_s);
+    EXPECT_GT(ran.observed_s, ended_s);
 }
 
 TEST(LatchedStop, InADwellOfAServoEndsTheProgram) {
