@@ -92,7 +92,7 @@ class StreamExecutor {
     /// returns idle.
     void stop();
     /// Sets the feed override and the rapid override, clamped to 0.01 .. 2 and 0.01 .. 1. A whole rapid that is faster
-    /// stops on its path, and goes on by itself.
+    /// stops on its path, and goes on by itself; a slower one ends as it was submitted.
     void set_overrides(double feed, double rapid);
     /// Enables single block: a pause after each line.
     void set_single_block(bool on) { single_block_ = on; }
