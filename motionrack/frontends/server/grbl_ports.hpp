@@ -2,7 +2,7 @@
 // line.
 //
 //   sender ──TCP──► 127.0.0.1:PORT ──grbl::Introduction─┐
-//   sender ──serial──► LINK ─► pts ─────────────────────┴─► grbl::Session ─► operate::Machine
+//   sender ──serial──► LINK ─► pts ─────────────────────┴─► grbl::GrblSession ─► operate::Machine
 //
 // One sender writes to the TCP port; the others observe, but their ? and ! are executed. A connection that took the
 // writer's place and never spoke as a sender loses it to the sender that has waited longest, which is greeted as after
