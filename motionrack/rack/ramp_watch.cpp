@@ -46,8 +46,8 @@ void RampWatch::keep(std::size_t i, std::int64_t count) {
     counts.back() = count;
 }
 
-/// Returns true if the pulses have ended without a ramp: nothing followed within a window. In a dense path, an axis may
-/// have no pulse in one segment, and more than its share in the one before.
+/// Returns true if the pulses have ended without a ramp. In a dense path, an axis may have no pulse in one segment, and
+/// more than its share in the one before: while other axes move, nothing must follow within a window.
 bool RampWatch::ends_abruptly(std::size_t i, Instant now) {
     const JumpLaw& law = watched_[i].law;
     const double rate = std::fabs(rate_of(i, now)), before = std::exchange(state_.rates[i], rate);
@@ -59,7 +59,11 @@ bool RampWatch::ends_abruptly(std::size_t i, Instant now) {
         state_.rests_from[i] = now;
         state_.ended_hz[i] = std::min(before, law.max_hz(std::span{state_.counts[i]}.first(counts_kept - 1)));
     }
-    return state_.rest_looks[i] == static_cast<std::int64_t>(law.samples) && state_.ended_hz[i] > law.end_hz;
+    const bool others_move = std::any_of(watched_.begin(), watched_.end(), [&](const SteppedAxis& one) {
+        return rack_.axes()[one.axis].turned_by().rate(now) != 0;
+    });
+    if (others_move && state_.rest_looks[i] < static_cast<std::int64_t>(law.samples)) return false;
+    return std::exchange(state_.ended_hz[i], 0) > law.end_hz;
 }
 
 void RampWatch::judge(std::size_t i, Instant now) {
