@@ -349,9 +349,12 @@ void Invariants::see_limits(std::size_t i, double velocity, double seconds, cons
               fmt::format("axis {} went at {:g} a second, above its {:g}", facts.letter, velocity, facts.max_velocity));
     if (jumped_ || last_seconds_ == 0) return;
     const double change = std::fabs(velocity - own_[i].velocity);
+    // Runs with dead stops may end one direction and begin the other, each with a step.
+    const bool stops_dead = settings_.known.max_velocity_step > 2;
+    const int steps = stops_dead && velocity * own_[i].velocity < 0 ? 2 : 1;
     const double explained = facts.max_accel * 1.05 * (seconds + last_seconds_) / 2,
-                 step = facts.velocity_step * settings_.known.max_velocity_step * 1.15 + 2 * rounding(i, seconds) +
-                        2 * rounding(i, last_seconds_);
+                 step = facts.velocity_step * steps * settings_.known.max_velocity_step * 1.15 +
+                        2 * rounding(i, seconds) + 2 * rounding(i, last_seconds_);
     peak_accel_factor_ = std::max(peak_accel_factor_, (change - step) / explained);
     const double allowed = explained * settings_.known.max_accel + step;
     if (change <= allowed) return;
