@@ -163,7 +163,9 @@ constexpr std::array command_rows = {
         {},
         "Ends an error stop and moves nothing; programs and modes are discarded, work offsets and positions stay."},
     OperationSpec{"set_overrides", Role::operate, true, override_fields,
-                  "Sets the feed and rapid overrides; effective at once.", ""},
+                  "Sets the feed and rapid overrides; effective at once, a higher rapid override from the next rapid "
+                  "on.",
+                  ""},
     OperationSpec{"set_single_block", Role::operate, true, single_block_fields,
                   "Turns the pause after each line on or off."},
     OperationSpec{"acknowledge_alarm", Role::operate, false, acknowledge_alarm_fields, "Acknowledges an alarm."},
