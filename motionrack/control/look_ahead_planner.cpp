@@ -240,6 +240,13 @@ void LookAheadPlanner::backward() {
     }
 }
 
+/// Returns the highest velocity2 on a move. `ends`: sum of the squares at its two ends.
+double LookAheadPlanner::top_of(const Node& node, double ends, const PlannedMove& planned) {
+    const double top = std::min(node.cruise, 0.5 * (ends + node.reach));
+    // From standstill to standstill within the constant-velocity length of the hardware: a pulse or two.
+    return top > 0 ? top : std::min(node.cruise, planned.accel * planned.length);
+}
+
 /// Forward pass: makes the moves before `until` ready.
 void LookAheadPlanner::forward(std::uint64_t until) {
     for (; ready_ < until; ++ready_) {
@@ -254,9 +261,7 @@ void LookAheadPlanner::forward(std::uint64_t until) {
         if (const double min_velocity = min_exit(here, entry * here.gain.braking);
             min_velocity - exit > path_rounding * entry)
             exit = min_velocity;
-        double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
-        // From standstill to standstill within the constant-velocity length of the hardware: a pulse or two.
-        if (top <= 0) top = std::min(here.cruise, planned.accel * planned.length);
+        const double top = top_of(here, entry + exit, planned);
         planned.entry_velocity = committed_;
         planned.exit_velocity = std::sqrt(exit);
         planned.cruise_velocity = std::max({std::sqrt(top), planned.entry_velocity, planned.exit_velocity});
@@ -302,9 +307,7 @@ void LookAheadPlanner::pull_as_one(std::size_t count, PlannedMove& planned) {
     planned.accel = along.accel;
     planned.jerk = along.jerk;
     const Node whole = node_of(path, along, 0, {});
-    double top = std::min(whole.cruise, 0.5 * whole.reach);
-    if (top <= 0) top = std::min(whole.cruise, planned.accel * planned.length);
-    planned.cruise_velocity = std::sqrt(top);
+    planned.cruise_velocity = std::sqrt(top_of(whole, 0, planned));
     head_ += count;
     if (ready_ >= head_) return;
     ready_ = head_;

@@ -108,6 +108,7 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     Gain gain_of(const Last& before, const Geometry& path) const;
     Node node_of(const Geometry& path, const AlongPathLimits& along, double junction, const Gain& gain) const;
     static double braked(const Node& node, double exit);
+    static double top_of(const Node& node, double ends, const PlannedMove& planned);
     static double min_exit(const Node& node, double entry);
     void backward();
     void forward(std::uint64_t until);

@@ -29,6 +29,13 @@ InitialPathState start_of(const PathMotion& along) {
     return {along.velocity * along.velocity, 2 * along.accel};
 }
 
+/// Finds a stop within the velocities of the current plan, or else within the limits for which it was made.
+template <class Find>
+std::optional<double> nearest_stop(Find find) {
+    const std::optional<double> end = find(above_plan);
+    return end ? end : find(above_any);
+}
+
 /// Returns true if it accelerates after it has decelerated.
 bool accelerates_again(std::span<const ProfileSegment> feed) {
     double peak_velocity = 0, min_velocity = std::numeric_limits<double>::infinity();  // the last since it decelerates
@@ -95,8 +102,7 @@ bool TrajectoryGenerator::extend_plan() {
 
 bool TrajectoryGenerator::slow_down() {
     const PlanCursor from = spot_at(before_left_);
-    std::optional<double> end = find_stop(from, above_plan);
-    if (!end) end = find_stop(from, above_any);
+    const std::optional<double> end = nearest_stop([&](double above) { return find_stop(from, above); });
     if (!end) return false;
     holding_ = true;
     take(from, before_left_, *end);
@@ -168,7 +174,7 @@ bool TrajectoryGenerator::apply_overrides() {
     const bool slower = std::min(feed_override_, rapid_override_) < 1;
     std::vector<ProfileSegment> stop;
     if (slower) {
-        if (!find_stop(from, above_plan) && !find_stop(from, above_any)) return false;
+        if (!nearest_stop([&](double above) { return find_stop(from, above); })) return false;
         stop.assign(planner_.feed().begin(), planner_.feed().end());
     }
     KnownSection part = with_feeds(from, stop);

@@ -70,9 +70,8 @@ double PathRule::max_velocity(const control::Geometry& path) const {
     constexpr double lost = 1 + both_axes_extra, beside = 1;  // pulses
     const double pulses = path.length * basic_pulses_along(map_, drawing_of(map_, path), path.tangent_in);
     const double kept = std::max(1.0, pulses - lost - beside);
-    const double whole = path.length / min_seconds(),
-                 counted = path.length * kept / pulses / Segmenter::min_counted_seconds(host_);
-    return std::min(whole, counted);
+    const double counted = path.length * kept / pulses / Segmenter::min_counted_seconds(host_);
+    return std::min(DriveConstraints::max_velocity(path), counted);
 }
 
 }  // namespace motionrack::mcx314
