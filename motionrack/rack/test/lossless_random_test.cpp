@@ -55,5 +55,10 @@ TEST(LosslessAtRandom, AStopInAShallowChordKeepsThePosition) {
     for (const std::uint64_t seed : {445961594, 771004124}) drive_one(seed, Arcs::some);
 }
 
+// A restart in a segment that brakes: the velocity at its end would be crept at along all of it.
+TEST(LosslessAtRandom, ALateHostDoesNotCreepThroughASegmentThatBrakes) {
+    drive_late(990003636);
+}
+
 }  // namespace
 }  // namespace motionrack::rack

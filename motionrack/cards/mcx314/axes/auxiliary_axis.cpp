@@ -43,30 +43,7 @@ constexpr double accesses_to_speed = 11;
 /// The chip's slopes are quantised to whole steps and clocks: a ramp that must end at a position gets this margin.
 constexpr double sure = 1.02;
 
-/// Basic pulses of the longest axis; with constant vector speed, pulses in which both axes step take longer.
-double basic_pulses(const Segment& segment) {
-    std::int64_t max_size = 0, min_size = std::numeric_limits<std::int64_t>::max();
-    for (std::size_t i = 0; i < segment.axis_count; ++i) {
-        const std::int64_t pulses = std::llabs(segment.finish[i]);
-        max_size = std::max(max_size, pulses);
-        min_size = std::min(min_size, pulses);
-    }
-    const bool longer = segment.constant_vector && segment.kind == SegmentKind::line;
-    return static_cast<double>(max_size) + (longer ? both_axes_extra * static_cast<double>(min_size) : 0.0);
-}
-
 }  // namespace
-
-/// Approximate duration of the segment: from the velocity `from` to its own V, then constant.
-double ChipAxisGroup::segment_seconds(const Segment& segment, double from) const {
-    // Length of the segment: the time integral of V (V units x s).
-    const double length = basic_pulses(segment) * range_ / rules::clock_hz;
-    const double v0 = std::max(1.0, from), v1 = segment.speed, slope = rules::rate_unit * segment.acceleration;
-    const double ramp = std::fabs(v1 - v0) / slope, ramp_length = ramp * (v0 + v1) / 2;
-    if (ramp_length <= length) return ramp + (length - ramp_length) / v1;
-    const double end = std::sqrt(std::max(1.0, v0 * v0 + (v1 > v0 ? 2 : -2) * slope * length));
-    return 2 * length / (v0 + end);
-}
 
 Result<void> ChipAxisGroup::update_auxiliary_velocity(const Segment& segment) {
     const int c = segment.auxiliary_channel;
@@ -82,7 +59,7 @@ Result<void> ChipAxisGroup::update_auxiliary_velocity(const Segment& segment) {
     const std::int64_t goal = auxiliary_target_ + segmenter_->auxiliary_pulses_ahead(c, direction);
     if (direction * (goal - at) <= 0) return {};
     const double mean = std::max(0.0, static_cast<double>(direction * left)) /
-                        segment_seconds(segment, driver_.ReadCV(generator_)) * range_ / rules::clock_hz;
+                        segment_seconds(segment, driver_.ReadCV(generator_), range_) * range_ / rules::clock_hz;
     const std::int32_t v = auxiliary_speed(mean);
     if (!driving) return drive_auxiliary(at, goal, v);
     // While it decelerates it keeps its present end; a new drive then covers the remaining pulses.
@@ -111,7 +88,7 @@ Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, s
     const double from = driving ? driver_.ReadCV(auxiliary_) : start;
     const auto left = static_cast<double>(direction * (auxiliary_target_ - at));
     if (!driving && left + static_cast<double>(ahead) <= 0) return {};  // it has already arrived
-    const double seconds = segment_seconds(segment, driver_.ReadCV(generator_)),
+    const double seconds = segment_seconds(segment, driver_.ReadCV(generator_), range_),
                  late = accesses_to_speed * to_seconds(host_.access) + to_seconds(host_.latency);
     const double distance = std::max(0.0, left / pulses_per_v - from * late);  // V units * seconds
     const double planned = segment.auxiliary_speed / pulses_per_v;

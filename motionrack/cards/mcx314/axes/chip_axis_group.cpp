@@ -133,6 +133,7 @@ Result<void> ChipAxisGroup::play(const Segment& segment) {
     } else {
         MOTIONRACK_CHECK(queue(segment));
         MOTIONRACK_CHECK(wait_for_junction(segment));
+        MOTIONRACK_CHECK(accelerate_late(segment));
         MOTIONRACK_CHECK(write_speed(segment));
     }
     ++segments_;
@@ -194,20 +195,6 @@ Result<void> ChipAxisGroup::queue(const Segment& segment) {
     if (braking_) return stopped_by_user();  // already stationary
     MOTIONRACK_CHECK(restart_late(segment));
     return command(segment);
-}
-
-/// Records that the chip was stationary before it received this segment, whose first axis drives the chain from here
-/// on. R of that axis stays the one of a second axis: its path is slower, never faster.
-Result<void> ChipAxisGroup::restart_late(const Segment& segment) {
-    const Instant now = driver_.interrupt().now();
-    notes_.push_back({segment.line, "", 0, to_seconds(std::max<Duration>(host_.access, now - runs_until_)),
-                      std::min(now, runs_until_)});
-    clear_interrupts();
-    chain_axes_ = 0;
-    catches_up_ = true;
-    if (std::exchange(generator_, segment.axes[0]) != segment.axes[0]) written_speed_ = written_acceleration_ = 0;
-    MOTIONRACK_CHECK(driver_.SetSV(1u << generator_, segment.rest_speed));
-    return write_speed(segment);
 }
 
 Result<void> ChipAxisGroup::command(const Segment& segment) {
@@ -296,7 +283,7 @@ Result<void> ChipAxisGroup::begin_segment(const Segment& segment) {
     current_line_ = segment.line;
     const Instant now = driver_.interrupt().now(),
                   begun = std::exchange(ran_alone_, false) ? std::min(now, runs_until_) : now;
-    runs_until_ = begun + from_seconds(segment_seconds(segment, running_speed_));
+    runs_until_ = begun + from_seconds(segment_seconds(segment, running_speed_, range_));
     running_speed_ = segment.speed;
     chain_axes_ |= axes_of(segment);
     for (std::size_t i = 0; i < segment.axis_count; ++i) expected_[segment.axes[i]] += segment.moves[i];

@@ -62,6 +62,7 @@ class ChipAxisGroup final : public control::AxisGroup {
     Result<void> start_chain(const Segment& segment);
     Result<void> queue(const Segment& segment);
     Result<void> restart_late(const Segment& segment);
+    Result<void> accelerate_late(const Segment& segment);
     Result<void> wait_for_junction(const Segment& queued);
     Result<void> decelerate();
     Result<void> wait_for_standstill();
@@ -77,7 +78,6 @@ class ChipAxisGroup final : public control::AxisGroup {
     Result<void> drive_auxiliary(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes = true);
     Result<void> finish_auxiliary();
     std::int64_t auxiliary_fall_from(std::int64_t pulses, std::int32_t v) const;
-    double segment_seconds(const Segment& segment, double from) const;
     tl::unexpected<Error> stopped_by_machine();
     tl::unexpected<Error> stopped_by_user();
     void clear_interrupts();
