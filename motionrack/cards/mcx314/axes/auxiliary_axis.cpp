@@ -43,6 +43,13 @@ constexpr double accesses_to_speed = 11;
 /// The chip's slopes are quantised to whole steps and clocks: a ramp that must end at a position gets this margin.
 constexpr double sure = 1.02;
 
+/// The travel of an axis in `seconds` that changes its speed from `from` to `to` with `slope`.
+double travel(double from, double to, double slope, double seconds) {
+    const double ramp = std::min(seconds, std::fabs(to - from) / slope),
+                 reached = from + (to > from ? slope : -slope) * ramp;
+    return (from + reached) / 2 * ramp + to * (seconds - ramp);
+}
+
 }  // namespace
 
 Result<void> ChipAxisGroup::update_auxiliary_velocity(const Segment& segment) {
@@ -99,11 +106,14 @@ Result<void> ChipAxisGroup::steer_evenly(const Segment& segment, bool driving, s
     if (v < from && from > end)
         slope = distance > 0 ? std::max(slope, sure * (from * from - end * end) / (2 * distance))
                              : max_slope;  // an axis that is ahead arrives early
-    MOTIONRACK_CHECK(driver_.SetA(
-        axis, static_cast<std::int32_t>(std::ceil(std::clamp(slope, rules::rate_unit, max_slope) / rules::rate_unit))));
-    const double falls_in = std::max(0.0, from * from - start * start) / (2 * max_slope) * pulses_per_v;
-    const std::int64_t goal = at + direction * std::max(static_cast<std::int64_t>(left) + ahead,
-                                                        static_cast<std::int64_t>(std::ceil(falls_in)));
+    slope = std::clamp(slope, rules::rate_unit, max_slope);
+    MOTIONRACK_CHECK(driver_.SetA(axis, static_cast<std::int32_t>(std::ceil(slope / rules::rate_unit))));
+    // The drive ends at its goal at any speed: beyond the rest of this segment, it has room to brake.
+    const double runs = ahead > 0 ? travel(from, v, slope, seconds) : 0, falls_from = ahead > 0 ? v : from,
+                 falls_in = std::max(0.0, falls_from * falls_from - start * start) / (2 * max_slope);
+    const std::int64_t goal =
+        at + direction * std::max(static_cast<std::int64_t>(left) + ahead,
+                                  static_cast<std::int64_t>(std::ceil((runs + falls_in) * pulses_per_v)));
     if (!driving) return drive_auxiliary(at, goal, v, false);
     MOTIONRACK_CHECK(driver_.SetV(axis, v));
     auxiliary_brakes_at_ = std::llabs(goal - auxiliary_from_);
