@@ -83,12 +83,14 @@ Result<Rows> read_rows_hdf5(const std::string& path) {
     std::error_code missing;
     if (!std::filesystem::exists(path, missing) || std::filesystem::is_empty(path, missing)) return out;
     const Result<Hdf5File> file = Hdf5File::open(path);
-    if (!file || file->attribute_text("format") != format)
+    MOTIONRACK_TRY(const std::string found, file ? file->attribute_text("format") : "");
+    if (found != format)
         return fail(
             ErrorKind::refused,
             "The existing file is not a table of a sweep. It was not changed; choose another name, or remove it.", {},
             path);
-    if (const std::int64_t version = file->attribute_number("format_version"); version != format_version)
+    MOTIONRACK_TRY(const std::int64_t version, file->attribute_number("format_version"));
+    if (version != format_version)
         return fail(
             ErrorKind::refused,
             fmt::format("The table has format {}{}; this program continues tables of format {}. It was left as "
@@ -100,7 +102,8 @@ Result<Rows> read_rows_hdf5(const std::string& path) {
     MOTIONRACK_TRY(const std::vector<std::string> keys, read_column(*file, {"key", "", true}));
     std::vector<Row> rows(keys.size());
     for (const ResultColumn& column : result_columns()) {
-        if (!file->has(column.name)) continue;
+        MOTIONRACK_TRY(const bool has_column, file->has(column.name));
+        if (!has_column) continue;
         MOTIONRACK_TRY(const std::vector<std::string> cells, read_column(*file, column));
         for (std::size_t i = 0; i < std::min(cells.size(), rows.size()); ++i)
             if (!cells[i].empty()) rows[i].emplace_back(column.name, cells[i]);

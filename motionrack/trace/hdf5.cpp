@@ -322,11 +322,4 @@ Result<Hdf5File> Hdf5File::open(const std::string& path) {
                 path);
 }
 
-bool Hdf5File::has(const std::string& path) const {
-    // H5Lexists requires a check of every group along the path.
-    for (std::size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1))
-        if (H5Lexists(file_.get(), path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
-    return H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) > 0;
-}
-
 }  // namespace motionrack::trace::hdf5

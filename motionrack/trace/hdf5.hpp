@@ -159,19 +159,21 @@ class Hdf5File {
     }
 
     // ---- reading
-    bool has(const std::string& path) const;
+    /// Errors: io if the disk, or the damaged file, does not tell.
+    Result<bool> has(const std::string& path) const;
     /// Errors: invalid_input if the column is missing or its size is implausible.
     Result<Reader> column(const std::string& path) const;
     /// Errors: as column, io.
     Result<std::string> text(const std::string& path) const;
-    /// Returns an attribute of the file or a group; empty, or 0, if missing.
-    std::string attribute_text(const char* name, const std::string& group = "/") const;
-    std::int64_t attribute_number(const char* name) const;
+    /// Returns an attribute of the file or a group; empty, or 0, if missing, or of another kind. Errors: as has.
+    Result<std::string> attribute_text(const char* name, const std::string& group = "/") const;
+    Result<std::int64_t> attribute_number(const char* name) const;
 
   private:
     bool good(std::int64_t code, const char* what);
     Result<void> close_library();
     bool is_as_written() const;
+    tl::unexpected<Error> unreadable(const std::string& what) const;
     void put_attribute(const std::string& object, const char* name, std::int64_t type, const void* value);
 
     std::string path_;

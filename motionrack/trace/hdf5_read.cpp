@@ -16,10 +16,14 @@ constexpr std::uint64_t max_growth = 1100;
 constexpr std::size_t max_attribute = 1 << 16;
 constexpr std::size_t max_text = std::size_t{1} << 30;
 
+tl::unexpected<Error> unreadable_in(const std::string& file, const std::string& what) {
+    return fail(ErrorKind::io, fmt::format("The recording is damaged: {} cannot be read.", what), {}, file);
+}
+
 }  // namespace
 
 tl::unexpected<Error> Reader::damaged() const {
-    return fail(ErrorKind::io, fmt::format("The recording is damaged: {} cannot be read.", path_), {}, file_);
+    return unreadable_in(file_, path_);
 }
 
 Result<void> Reader::read(Type type, std::uint64_t from, std::size_t count, void* out) const {
@@ -55,7 +59,8 @@ Result<Reader> Hdf5File::column(const std::string& path) const {
     const auto refuse = [&](const std::string& what) {
         return fail(ErrorKind::invalid_input, fmt::format("The recording is damaged: {} {}.", path, what), {}, path_);
     };
-    if (!has(path)) return refuse("was not found");
+    MOTIONRACK_TRY(const bool found, has(path));
+    if (!found) return refuse("was not found");
     Reader out;
     out.file_ = path_;
     out.path_ = path;
@@ -87,31 +92,53 @@ Result<std::string> Hdf5File::text(const std::string& path) const {
     return reader.text(0);
 }
 
-std::string Hdf5File::attribute_text(const char* name, const std::string& group) const {
-    if ((group != "/" && !has(group)) || H5Aexists_by_name(file_.get(), group.c_str(), name, H5P_DEFAULT) <= 0)
-        return {};
+tl::unexpected<Error> Hdf5File::unreadable(const std::string& what) const {
+    return unreadable_in(path_, what);
+}
+
+Result<bool> Hdf5File::has(const std::string& path) const {
+    // H5Lexists requires a check of every group along the path.
+    for (std::size_t slash = path.find('/');; slash = path.find('/', slash + 1)) {
+        const htri_t found = H5Lexists(file_.get(), path.substr(0, slash).c_str(), H5P_DEFAULT);
+        if (found < 0) return unreadable(path);
+        if (found == 0 || slash == std::string::npos) return found > 0;
+    }
+}
+
+Result<std::string> Hdf5File::attribute_text(const char* name, const std::string& group) const {
+    if (group != "/") {
+        MOTIONRACK_TRY(const bool found, has(group));
+        if (!found) return {};
+    }
+    const htri_t found = H5Aexists_by_name(file_.get(), group.c_str(), name, H5P_DEFAULT);
+    if (found < 0) return unreadable(name);
+    if (found == 0) return {};
     const Handle attribute(H5Aopen_by_name(file_.get(), group.c_str(), name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-    const Handle type(attribute ? H5Aget_type(attribute.get()) : -1, H5Tclose);
-    const std::size_t bytes = type ? H5Tget_size(type.get()) : 0;
-    if (!type || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || bytes == 0 ||
-        bytes > max_attribute)
+    const Handle type(attribute ? H5Aget_type(attribute.get()) : -1, H5Tclose),
+        space(attribute ? H5Aget_space(attribute.get()) : -1, H5Sclose);
+    if (!type || !space) return unreadable(name);
+    const std::size_t bytes = H5Tget_size(type.get());
+    if (H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) > 0 || bytes == 0 ||
+        bytes > max_attribute || H5Sget_simple_extent_npoints(space.get()) != 1)
         return {};
-    const Handle space(H5Aget_space(attribute.get()), H5Sclose);
-    if (!space || H5Sget_simple_extent_npoints(space.get()) != 1) return {};
     std::string out(bytes, '\0');
     const Handle wanted = text_type(bytes);
-    if (H5Aread(attribute.get(), wanted.get(), out.data()) < 0) return {};
+    if (H5Aread(attribute.get(), wanted.get(), out.data()) < 0) return unreadable(name);
     out.resize(out.find_last_not_of('\0') + 1);
     return out;
 }
 
-std::int64_t Hdf5File::attribute_number(const char* name) const {
-    std::int64_t out = 0;
-    if (H5Aexists(file_.get(), name) <= 0) return 0;
+Result<std::int64_t> Hdf5File::attribute_number(const char* name) const {
+    const htri_t found = H5Aexists(file_.get(), name);
+    if (found < 0) return unreadable(name);
+    if (found == 0) return 0;
     const Handle attribute(H5Aopen(file_.get(), name, H5P_DEFAULT), H5Aclose);
     const Handle space(attribute ? H5Aget_space(attribute.get()) : -1, H5Sclose);
-    if (!space || H5Sget_simple_extent_npoints(space.get()) != 1) return 0;
-    return H5Aread(attribute.get(), H5T_NATIVE_INT64, &out) < 0 ? 0 : out;
+    if (!space) return unreadable(name);
+    if (H5Sget_simple_extent_npoints(space.get()) != 1) return 0;
+    std::int64_t out = 0;
+    if (H5Aread(attribute.get(), H5T_NATIVE_INT64, &out) < 0) return unreadable(name);
+    return out;
 }
 
 }  // namespace motionrack::trace::hdf5

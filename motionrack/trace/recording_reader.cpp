@@ -27,9 +27,10 @@ Result<RecordingReader> RecordingReader::open(const std::string& path) {
     RecordingReader out;
     MOTIONRACK_TRY(out.file_, hdf5::Hdf5File::open(path));
     const hdf5::Hdf5File& file = out.file_;
-    if (file.attribute_text("format") != "motionrack recording")
+    MOTIONRACK_TRY(const std::string format, file.attribute_text("format"));
+    if (format != "motionrack recording")
         return fail(ErrorKind::invalid_input, "The file is an HDF5 file, but not a recording of motionrack.", {}, path);
-    const std::int64_t version = file.attribute_number("format_version");
+    MOTIONRACK_TRY(const std::int64_t version, file.attribute_number("format_version"));
     if (version != recording_format)
         return fail(
             ErrorKind::invalid_input,
@@ -53,7 +54,8 @@ Result<void> RecordingReader::read_head() {
     MOTIONRACK_TRY(head_, head_from_json(json));
     MOTIONRACK_TRY(head_.program, file_.text("run/program"));
     MOTIONRACK_TRY(head_.rack, file_.text("run/rack"));
-    began_ = Instant{file_.attribute_number("began_ticks")};
+    MOTIONRACK_TRY(const std::int64_t began, file_.attribute_number("began_ticks"));
+    began_ = Instant{began};
     for (const RecordedSignal& signal : head_.signals)
         series_.push_back(
             {signal.name, signal.unit, true, signal.path + "/time", signal.path + "/" + value_column(signal.kind)});
@@ -73,16 +75,18 @@ Result<void> RecordingReader::read_head() {
 }
 
 Result<void> RecordingReader::read_end() {
-    const std::int64_t ended = file_.attribute_number("ended_ticks");
-    whole_ = !file_.unfinished() && ended > 0 && file_.has("run/report");
+    MOTIONRACK_TRY(const std::int64_t ended, file_.attribute_number("ended_ticks"));
+    MOTIONRACK_TRY(const bool reported, file_.has("run/report"));
+    whole_ = !file_.unfinished() && ended > 0 && reported;
     if (whole_) {
         known_to_ = Instant{ended};
-        max_samples_ =
-            static_cast<std::size_t>(std::clamp<std::int64_t>(file_.attribute_number("max_samples"), 16, 10'000'000));
+        MOTIONRACK_TRY(const std::int64_t samples, file_.attribute_number("max_samples"));
+        max_samples_ = static_cast<std::size_t>(std::clamp<std::int64_t>(samples, 16, 10'000'000));
         MOTIONRACK_TRY(report_, file_.text("run/report"));
-        for (const char* name : fact_names)
-            if (const std::string text = file_.attribute_text(name, "outcome"); !text.empty())
-                outcome_.push_back({name, text});
+        for (const char* name : fact_names) {
+            MOTIONRACK_TRY(std::string text, file_.attribute_text(name, "outcome"));
+            if (!text.empty()) outcome_.push_back({name, std::move(text)});
+        }
         return {};
     }
     MOTIONRACK_TRY(const hdf5::Reader flushed, file_.column("run/flushed"));

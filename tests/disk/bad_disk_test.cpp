@@ -22,6 +22,7 @@ struct Scenario {
     std::vector<const char*> results;
 };
 
+const Scenario replay = {"replay", "replay given.h5 -q --record a.h5", {"a.h5"}};
 const Scenario scenarios[] = {
     {"recording", "run part.ngc -q --no-report --record a.h5", {"a.h5"}},
     {"recording_with_faults", "run part.ngc -q --no-report --record a.h5 --at feed=0.5@0.1s", {"a.h5"}},
@@ -35,7 +36,7 @@ const Scenario scenarios[] = {
      {"a.html", "a.csv", "b.csv", "a.vcd", "a.h5"}},
     {"trace", "trace part.ngc a.vcd -q --signals X.step", {"a.vcd"}},
     {"page_of_a_recording", "report given.h5 --report a.html --csv a.csv --events b.csv", {"a.html", "a.csv", "b.csv"}},
-    {"replay", "replay given.h5 -q --record a.h5", {"a.h5"}},
+    replay,
     {"sweep_to_csv", "sweep sweep.toml -q --jobs 1 --restart -o a.csv", {"a.csv"}},
     {"sweep_to_hdf5", "sweep sweep.toml -q --jobs 1 --restart -o a.h5", {"a.h5"}},
     {"sweep_with_a_picture", "sweep sweep.toml -q --jobs 1 --restart -o a.csv --picture a.svg", {"a.csv", "a.svg"}},
@@ -148,6 +149,22 @@ TEST_P(FaultyDisk, LeavesTheOldResultOrTheWholeNewOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, FaultyDisk, testing::ValuesIn(scenarios),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+class FirstReadsOfARecording : public FaultyDisk {};
+
+TEST_P(FirstReadsOfARecording, AreErrorsWhereTheDiskFails) {
+    ASSERT_EQ(run_on("fail 0").code, 0);
+    std::map<std::string, std::string> good;
+    for (const char* result : GetParam().results) good[result] = text_of(folder / result);
+    for (int nth = 1; nth <= 40; ++nth) {
+        SCOPED_TRACE(nth);
+        check(run_on("fail " + std::to_string(nth)), good);
+    }
+    calls();
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, FirstReadsOfARecording, testing::Values(replay),
                          [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
