@@ -48,6 +48,11 @@ std::string describe(const sim::Condition& condition, const std::string& card) {
                     "= \"mcx314as\" for the card, or leave the command out",
                     card, condition.a);
             return fmt::format("{}: command {:02X}h does not exist on this model; nothing was done", card, condition.a);
+        case output_held:
+            return fmt::format(
+                "{}: outputs stay low, bits {:04X}h of WR{}: a stop of the machine cleared them; write them low first, "
+                "then high",
+                card, condition.b, condition.a);
         default:
             return fmt::format("{}: condition {}", card, condition.code);
     }

@@ -32,7 +32,8 @@ enum ChipCondition : std::uint16_t {
     unknown_command = 3,  ///< a: command, b: 1 if the MCX314As has it
     pattern_full = 4,     ///< 38h with three words stacked
     pattern_ran_out = 5,  ///< a: basic pulses made; the bit pattern ended without its end code
-    step_ignored = 6      ///< 3Ah without a segment that waits for a step
+    step_ignored = 6,     ///< 3Ah without a segment that waits for a step
+    output_held = 7       ///< a: 3 or 4, the number of WR, b: bits of outputs that a stop cleared, and that stay low
 };
 
 /// Message of a condition that a chip has reported.
@@ -272,8 +273,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     // registers.cpp
     void reset();
     void write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask);
-    template <class Put>
-    void write_mode(std::uint32_t offset, int a, const Put& put);
+    void write_mode(std::uint32_t offset, int a, const MaskedWrite& put);
     void clear_flags(std::uint16_t mask);
     void command(std::uint16_t value);
     void data_write(int code, int a);

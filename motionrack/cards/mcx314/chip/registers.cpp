@@ -1,5 +1,6 @@
 // Bus writes and their effects.
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/general_outputs.hpp>
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 
@@ -28,6 +29,7 @@ void Chip::reset() {
     for (Extension& extension : state_.extension) extension = {};
     state_.selected = 1;
     state_.wr4 = state_.wr5 = state_.wr6 = state_.wr7 = state_.rr6 = state_.rr7 = 0;
+    state_.held = {};
     state_.homing = state_.acting = 0;
     state_.next_sample = far;
     state_.emergency_high = kernel_.level(emgn_) != 0;
@@ -65,7 +67,7 @@ void Chip::write_byte(std::uint32_t port, std::uint8_t value) {
 void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask) {
     const Instant now = kernel_.now();
     catch_up(now);
-    auto put = [=](std::uint16_t& word) { word = static_cast<std::uint16_t>((word & ~mask) | (value & mask)); };
+    const MaskedWrite put{value, mask};
     if (state_.pattern.writable && offset >= reg::WR2 && offset <= reg::WR7)
         put(state_.pattern.registers[(offset - reg::WR2) / 2]);
     else if (offset == reg::WR0)
@@ -73,7 +75,7 @@ void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t m
     else if (offset >= reg::WR1 && offset <= reg::WR3)
         for_each_axis(state_.selected, [&](int a) { write_mode(offset, a, put); });
     else if (offset == reg::WR4)
-        put(state_.wr4), update_outputs();
+        GeneralOutputs::write(*this, put);
     else if (offset == reg::WR5)
         put(state_.wr5);
     else if (offset == reg::WR6)
@@ -87,13 +89,12 @@ void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t m
     settle(now);
 }
 
-/// WR1 .. WR3 of an axis; put(word) stores the written word.
-template <class Put>
-void Chip::write_mode(std::uint32_t offset, int a, const Put& put) {
+/// WR1 .. WR3 of an axis.
+void Chip::write_mode(std::uint32_t offset, int a, const MaskedWrite& put) {
     Axis& axis = state_.axis[a];
     if (offset == reg::WR3) {
         const std::uint16_t before = axis.wr3;
-        put(axis.wr3);
+        GeneralOutputs::write_modes(*this, a, put);
         return set_external(a, before);
     }
     if (offset == reg::WR1) {

@@ -24,6 +24,13 @@ constexpr int drive_code(Drive drive, int direction) {
     return direction > 0 ? cmd::CONTINUOUS_PLUS : cmd::CONTINUOUS_MINUS;
 }
 
+/// A register of which the host writes the bits in `mask`.
+struct MaskedWrite {
+    std::uint16_t value = 0, mask = 0xFFFF;
+
+    void operator()(std::uint16_t& word) const { word = static_cast<std::uint16_t>((word & ~mask) | (value & mask)); }
+};
+
 /// Parameters captured by an interpolation command.
 struct PathCommand {
     std::int32_t code = 0;  ///< cmd::LINE2 .. cmd::BP3
@@ -166,6 +173,13 @@ struct Axis {
     Generator gen;
 };
 
+/// Outputs that a stop of the machine cleared, and that the host has not written low since: bits of WR3 and WR4.
+struct HeldOutputs {
+    std::array<std::uint32_t, axes_of_chip> wr3{};
+    std::uint32_t wr4 = 0;
+    std::uint32_t reported = 0;  ///< 1: the host knows of them
+};
+
 struct State {
     std::array<Axis, axes_of_chip> axis{};
     std::int64_t tick = 0;        ///< last executed tick
@@ -191,6 +205,8 @@ struct State {
     PathCommand queue;
     Pattern pattern;
     std::array<Walk, axes_of_chip> ahead{};  ///< steps of these generators from `at` to next_tick
+
+    HeldOutputs held;
 
     // MCX314As only.
     std::int64_t next_sample = 0;              ///< the next tick at which inputs are sampled

@@ -191,7 +191,7 @@ class Driver {
     Result<void> Synchronous(unsigned axes);
     /// MCX314As: the counter saved by the axis' synchronous action.
     std::int32_t ReadBR(int axis);
-    /// nOUT0 .. nOUT7; 4..7 only while they do not show the drive's status.
+    /// nOUT0 .. nOUT7 (4..7 unless they show the status). After an emergency stop one must be set low, then high.
     Result<void> SetOutput(unsigned axes, int output, bool high);
     Result<void> ShowDriveStatus(unsigned axes, bool on);  ///< nOUT4..7 show CMP+, CMP-, accelerating, decelerating
     InputLevels inputs(int axis);

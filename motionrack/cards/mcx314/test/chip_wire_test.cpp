@@ -1,5 +1,5 @@
 // The chip from outside: pulse outputs, encoder inputs, general outputs, listeners and snapshots.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <motionrack/cards/mcx314/chip/general_outputs.hpp>
 #include <motionrack/cards/mcx314/test/chip_bench.hpp>
@@ -146,9 +146,46 @@ TEST(ChipWires, ClearedGeneralOutputsAreLowAndTheSelectedAxesAndTheShownStatusSt
     EXPECT_EQ(b.chip.inspect("WR3", 1), 0x0004) << "the other modes stay";
     EXPECT_EQ(log.of("c.yout5").size(), 2u) << "whoever follows an output sees it fall";
     EXPECT_EQ(log.of("c.uout7").size(), 2u);
+    b.write(3, 0);
     b.write(3, 0x0100);
     EXPECT_EQ(b.level("zout4"), 1) << "Z is still selected";
     EXPECT_EQ(b.level("yout4"), 0);
+}
+
+/// A host writes whole words: those that it remembers from before the stop.
+TEST(ChipWires, AClearedOutputStaysLowUntilItIsWrittenLow) {
+    Bench b;
+    b.start();
+    b.write(4, 0x0003);    // X OUT0, OUT1
+    b.mode(Y, 3, 0x0304);  // Y OUT4, OUT5, S-curve
+    Chip::GeneralOutputs::clear(b.chip);
+    const auto told = [&] {
+        std::vector<std::string> out;
+        for (const sim::Condition& one : b.kernel.conditions()) out.push_back(describe(one, "c"));
+        return out;
+    };
+    b.write(4, 0x0013);  // and Y OUT0, which was low
+    EXPECT_EQ(b.level("xout0"), 0);
+    EXPECT_EQ(b.level("xout1"), 0);
+    EXPECT_EQ(b.level("yout0"), 1);
+    EXPECT_EQ(b.chip.inspect("WR4", 0), 0x0010) << "as the outputs are";
+    EXPECT_THAT(told(), testing::ElementsAre("c: outputs stay low, bits 0003h of WR4: a stop of the machine cleared "
+                                             "them; write them low first, then high"));
+    b.mode(Y, 3, 0x0300);  // a drive without an S-curve
+    EXPECT_EQ(b.level("yout4"), 0);
+    EXPECT_EQ(b.level("yout5"), 0);
+    EXPECT_EQ(told().size(), 1u) << "once is enough";
+    b.write(4, 0x0012);  // X OUT0 low
+    b.write(4, 0x0013);
+    EXPECT_EQ(b.level("xout0"), 1);
+    EXPECT_EQ(b.level("xout1"), 0) << "never written low";
+    b.mode(Y, 3, 0x0200);
+    b.mode(Y, 3, 0x0300);
+    EXPECT_EQ(b.level("yout4"), 1);
+    EXPECT_EQ(b.level("yout5"), 0);
+    b.write(0, 0x8000);  // a reset of the chip ends it
+    b.write(4, 0x0003);
+    EXPECT_EQ(b.level("xout1"), 1);
 }
 
 TEST(ChipEncoder, EveryDivisionCountsItsEdges) {
