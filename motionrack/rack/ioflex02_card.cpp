@@ -168,9 +168,7 @@ std::unique_ptr<Card> make_ioflex02(sim::Kernel& kernel, const RackCard& config,
 
 void clear_ioflex02_outputs(Rack& rack, const StopReaction&) {
     for (const auto& card : rack.cards())
-        if (auto* board = dynamic_cast<Ioflex02Card*>(card.get()); board != nullptr)
-            for (const std::uint32_t low_and_high : {io::offset("OUTL"), io::offset("OUTH")})
-                board->card().write(low_and_high, 0);
+        if (auto* board = dynamic_cast<Ioflex02Card*>(card.get()); board != nullptr) board->card().clear_outputs();
 }
 
 constexpr std::array<StopReaction, 1> ioflex02_stops = {

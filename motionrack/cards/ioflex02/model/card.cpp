@@ -130,9 +130,20 @@ std::uint32_t Card::time() const {
                : 0;
 }
 
-void Card::put_out(std::uint16_t levels) {
-    state_.outputs = levels;
-    for (std::size_t i = 0; i < 16; ++i) kernel_.set_wire(wires_[line_pins + input_pins + i], levels >> i & 1);
+/// The host writes the outputs in `mask`.
+void Card::put_out(std::uint16_t levels, std::uint16_t mask) {
+    state_.held = static_cast<std::uint16_t>(state_.held & (levels | ~mask));
+    if (const int low = state_.held & mask; low != 0 && std::exchange(state_.reported_held, std::uint16_t{1}) == 0)
+        report(CardCondition::outputs_held, low);
+    state_.outputs = static_cast<std::uint16_t>(((state_.outputs & ~mask) | (levels & mask)) & ~state_.held);
+    for (std::size_t i = 0; i < 16; ++i) kernel_.set_wire(wires_[line_pins + input_pins + i], state_.outputs >> i & 1);
+}
+
+void Card::clear_outputs() {
+    const auto held = static_cast<std::uint16_t>(state_.held | state_.outputs);
+    put_out(0);
+    state_.held = held;
+    state_.reported_held = 0;
 }
 
 }  // namespace motionrack::ioflex02

@@ -32,6 +32,10 @@ class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
     void write(std::uint32_t offset, std::uint16_t value) override;
     std::uint16_t peek(std::uint32_t offset) const override;
 
+    /// Sets all outputs low, without an access of the bus. Each that was high stays low until the host writes it low,
+    /// then high.
+    void clear_outputs();
+
     // ---- inspection at the present instant
     bool running() const { return seen().configuration.array == ArrayState::running; }
     ArrayState array() const { return seen().configuration.array; }
@@ -62,7 +66,7 @@ class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
     void report_illegal();
     void await_illegal();
     void report(CardCondition code, std::int64_t a = 0, std::int64_t b = 0);
-    void put_out(std::uint16_t levels);
+    void put_out(std::uint16_t levels, std::uint16_t mask = 0xFFFF);
     bool has_project() const;
 
     // configuration.cpp

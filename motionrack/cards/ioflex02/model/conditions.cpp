@@ -49,6 +49,12 @@ std::string what_happened(const sim::Condition& c) {
                 "two cards answer at the base address {:04X}h: a read returns both words ANDed, a write goes "
                 "to both. Give each card its own address",
                 c.a);
+        case CardCondition::outputs_held:
+            return fmt::format(
+                "the outputs with the bits {:04X}h stayed low: a stop of the machine cleared them; write them low "
+                "first, "
+                "then high",
+                c.a);
     }
     return fmt::format("condition {} ({}, {})", c.code, c.a, c.b);
 }

@@ -14,7 +14,8 @@ enum class CardCondition : std::uint16_t {
     unknown_project = 3,     ///< a: its ident
     no_project = 4,          ///< a: the register's offset; once until a project runs
     no_register = 5,         ///< a: the offset, b: the word written, or -1 for a read
-    address_conflict = 6     ///< a: the base address; reported once, by the bus
+    address_conflict = 6,    ///< a: the base address; reported once, by the bus
+    outputs_held = 7         ///< a: bits of outputs that a stop cleared, and that stay low; once a stop
 };
 
 /// "card c1: at 0.012 s ...". `card`: its name.

@@ -134,9 +134,9 @@ void Card::write_project(std::uint32_t at, std::uint16_t value) {
                     command_axis(state_.axes[i], static_cast<tIOFlexCmd>(value >> (2 * i) & 3));
             return;
         case offset("OUTL"):
-            return put_out(static_cast<std::uint16_t>((state_.outputs & 0xFF00) | (value & 0xFF)));
+            return put_out(value, 0x00FF);
         case offset("OUTH"):
-            return put_out(static_cast<std::uint16_t>((state_.outputs & 0x00FF) | (value & 0xFF) << 8));
+            return put_out(static_cast<std::uint16_t>(value << 8), 0xFF00);
         case offset("AXIS"):
             state_.axis = value & field("AXIS", "NUMBER").mask;
             return;

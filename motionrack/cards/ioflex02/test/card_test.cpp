@@ -242,6 +242,30 @@ TEST(Ioflex02Card, InputsAreReadAsTheyAreAndOutputsHoldTheirBytes) {
     for (int i = 0; i < 32; ++i) EXPECT_EQ(rig.level("out" + std::to_string(i)), 0x3CA5 >> i & 1) << i;
 }
 
+/// A host writes whole bytes: those that it remembers from before the stop.
+TEST(Ioflex02Card, AClearedOutputStaysLowUntilItIsWrittenLow) {
+    Rig rig;
+    rig.start();
+    rig.write(offset("OUTL"), 0x03);
+    rig.write(offset("OUTH"), 0x80);
+    rig.card.clear_outputs();
+    rig.write(offset("OUTL"), 0x07);
+    EXPECT_EQ(rig.level("out0"), 0);
+    EXPECT_EQ(rig.level("out1"), 0);
+    EXPECT_EQ(rig.level("out2"), 1) << "was low";
+    EXPECT_EQ(rig.conditions(), std::vector{CardCondition::outputs_held});
+    rig.write(offset("OUTH"), 0x80);
+    EXPECT_EQ(rig.level("out15"), 0);
+    rig.write(offset("OUTL"), 0x02);
+    rig.write(offset("OUTL"), 0x03);
+    EXPECT_EQ(rig.level("out0"), 1);
+    EXPECT_EQ(rig.level("out1"), 0) << "never written low";
+    EXPECT_EQ(rig.conditions().size(), 1u) << "once a stop";
+    rig.write(offset("CONTROL"), 4);  // a reset of the project ends it
+    rig.write(offset("OUTH"), 0x80);
+    EXPECT_EQ(rig.level("out15"), 1);
+}
+
 TEST(Ioflex02Card, AResetClearsCountsOutputsAndModes) {
     Rig rig;
     rig.start();
