@@ -19,9 +19,8 @@ struct LogSink final : rtc5::Sink {
     OverflowLog& log;
 };
 
-/// Jumps and marks near the field edges while the simulated belt moves the output.
-Engine card_with_a_list() {
-    Engine card;
+/// Starts jumps and marks near the field edges while the simulated belt moves the output.
+void start_list(Engine& card) {
     EXPECT_TRUE(card.simulate_encoder(3));
     EXPECT_TRUE(card.set_start_list(1));
     const auto put = [&](Op op, std::initializer_list<double> p = {}) {
@@ -38,7 +37,6 @@ Engine card_with_a_list() {
     put(Op::fly_return, {0, 0});
     put(Op::set_end_of_list);
     EXPECT_TRUE(card.execute_list(1));
-    return card;
 }
 
 TEST(OverflowLog, HasTheTicksAtWhichTheFlagsBecomeSet) {
@@ -47,7 +45,8 @@ TEST(OverflowLog, HasTheTicksAtWhichTheFlagsBecomeSet) {
     const parts::Conveyor track = *parts::Conveyor::make(settings);
     OverflowLog log(counts_per_bit, track);
     LogSink sink(log);
-    Engine card = card_with_a_list();
+    Engine card;
+    start_list(card);
     ASSERT_TRUE(card.run_to_rest(1'000'000, &sink));
     log.finish(card.tick());
 
@@ -59,7 +58,8 @@ TEST(OverflowLog, HasTheTicksAtWhichTheFlagsBecomeSet) {
     };
     std::vector<Seen> seen;
     std::array<int, 4> open{-1, -1, -1, -1};
-    Engine slow = card_with_a_list();
+    Engine slow;
+    start_list(slow);
     struct None final : rtc5::Sink {
         void samples(const rtc5::Samples&) override {}
     } none;

@@ -25,8 +25,7 @@ void Engine::load_program_file() {
     std::fill_n(memory_.get(), settings_.list_memory, Command{});
     tables_ = {};
     fly_table_.reset();
-    filled_ = state_.tick;
-    switch_laser(state_.tick * half_us_per_tick, false, state_.tick);
+    laser_.switch_off();
 }
 
 Result<void> Engine::load_correction(std::shared_ptr<const Table> table, int number) {

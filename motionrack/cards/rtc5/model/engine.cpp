@@ -11,7 +11,7 @@ void Engine::Free::operator()(void* memory) const {
     std::free(memory);  // NOLINT(cppcoreguidelines-no-malloc): allocated by calloc
 }
 
-Engine::Engine(const Settings& settings) : settings_(settings), scratch_(std::make_unique<Scratch>()) {
+Engine::Engine(const Settings& settings) : settings_(settings) {
     MOTIONRACK_ASSERT(check(settings).has_value());
     // NOLINTBEGIN(cppcoreguidelines-no-malloc): zeros are empty positions, and pages that no list touches use no memory
     static_assert(static_cast<int>(Op::none) == 0);
@@ -23,10 +23,10 @@ Engine::Engine(const Settings& settings) : settings_(settings), scratch_(std::ma
 }
 
 void Engine::run_until(std::int64_t tick, Sink* sink) {
-    sink_ = sink;
+    connections_.sink = sink;
     while (state_.tick < tick) piece(tick, sink);
     evaluate();
-    sink_ = nullptr;
+    connections_.sink = nullptr;
 }
 
 bool Engine::at_rest() const {
@@ -37,19 +37,19 @@ bool Engine::at_rest() const {
 
 bool Engine::run_to_rest(std::int64_t ticks, Sink* sink) {
     const std::int64_t end = state_.tick + ticks;
-    sink_ = sink;
+    connections_.sink = sink;
     until_rest_ = true;
     while (state_.tick < end && !at_rest()) piece(end, sink);
     until_rest_ = false;
     evaluate();
-    sink_ = nullptr;
+    connections_.sink = nullptr;
     return at_rest();
 }
 
 void Engine::begin_tick() {
     if (state_.sampled == state_.tick) return;
     state_.sampled = state_.tick;
-    filled_ = state_.tick;
+    laser_.begin_tick();
     sample_inputs();
     take_move_starts();
 }
@@ -74,7 +74,7 @@ std::size_t Engine::produce(std::size_t capacity) {
         if (n == capacity) break;
         if (state_.lists.paused) {
             state_.wobbel.offset = {};
-            kernels::hold(&scratch_->x[n], &scratch_->y[n], capacity - n, state_.p);
+            kernels::hold(&buffers_->x[n], &buffers_->y[n], capacity - n, state_.p);
             return capacity;
         }
         if (!next_step(n)) break;
@@ -100,23 +100,23 @@ std::size_t Engine::micro_vectors(std::size_t n, std::size_t capacity) {
     for (; at < end; ++at, ++n) {
         const Command& c = memory_[static_cast<std::size_t>(at)];
         if (c.op != Op::micro_vector_abs || !silent(c.p[2]) || !silent(c.p[3])) break;
-        scratch_->x[n] = c.p[0];
-        scratch_->y[n] = c.p[1];
+        buffers_->x[n] = c.p[0];
+        buffers_->y[n] = c.p[1];
     }
     if (at == first) return n;
     l.current = at - 1;
     l.next = at;
-    const Point before = at - first > 1 ? Point{scratch_->x[n - 2], scratch_->y[n - 2]} : state_.p;
+    const Point before = at - first > 1 ? Point{buffers_->x[n - 2], buffers_->y[n - 2]} : state_.p;
     state_.wobbel.offset = {};
     a.from = before;
-    state_.p = a.to = {scratch_->x[n - 1], scratch_->y[n - 1]};
+    state_.p = a.to = {buffers_->x[n - 1], buffers_->y[n - 1]};
     a.step = a.direction = a.to - before;
     return n;
 }
 
 std::size_t Engine::fill(std::size_t n, std::size_t capacity) {
     Activity& a = state_.activity;
-    double *const x = &scratch_->x[n], *const y = &scratch_->y[n];
+    double *const x = &buffers_->x[n], *const y = &buffers_->y[n];
     std::size_t m = capacity - n;
     switch (a.kind) {
         case ActivityKind::none:
@@ -172,7 +172,7 @@ bool Engine::skip(std::int64_t limit) {
     Activity& a = s.activity;
     const bool still = s.lists.paused || a.kind == ActivityKind::none || a.kind == ActivityKind::hold;
     const bool moves = !s.lists.paused && (a.kind == ActivityKind::line || a.kind == ActivityKind::arc);
-    if (inputs_ != nullptr) {
+    if (connections_.inputs != nullptr) {
         if (s.fly.on() || (!still && !moves)) return false;
         limit = std::min<std::int64_t>(limit, 1 << 20);
     }
@@ -190,7 +190,7 @@ bool Engine::skip(std::int64_t limit) {
         if (!extent) return false;
         extent_.take(*extent);
     }
-    laser_until(s.tick + n);
+    laser_.run_until(s.tick + n);
     s.wobbel.offset = {};
     if (moves) s.p = position_of(a, a.done + n);
     if (moves || (a.kind == ActivityKind::hold && !s.lists.paused)) a.done += n;

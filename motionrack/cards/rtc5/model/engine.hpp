@@ -9,9 +9,12 @@
 #pragma once
 
 #include <memory>
+#include <motionrack/cards/rtc5/model/block_buffers.hpp>
+#include <motionrack/cards/rtc5/model/connections.hpp>
 #include <motionrack/cards/rtc5/model/correction.hpp>
 #include <motionrack/cards/rtc5/model/fly_table.hpp>
 #include <motionrack/cards/rtc5/model/kernels.hpp>
+#include <motionrack/cards/rtc5/model/laser_control.hpp>
 #include <motionrack/cards/rtc5/model/not_due.hpp>
 #include <motionrack/cards/rtc5/model/settings.hpp>
 #include <motionrack/cards/rtc5/model/state.hpp>
@@ -20,53 +23,12 @@
 
 namespace motionrack::rtc5 {
 
-/// Outputs of consecutive ticks. In the 10 us of tick k the spot of ideal mirrors moves from the output of tick k-1 to
-/// that of tick k.
-struct Samples {
-    std::int64_t first = 0;                            ///< tick
-    std::span<const std::int32_t> x, y;                ///< head A, bits
-    std::span<const std::int32_t> x_b, y_b;            ///< head B, empty while no table is selected for it
-    std::span<const std::uint8_t> laser;               ///< half-microseconds with the laser on, 0 .. 20
-    std::span<const double> corrected_x, corrected_y;  ///< after fly, before clipping; empty while no correction is on
-};
-
-class Sink {
-  public:
-    virtual ~Sink() = default;
-    virtual void samples(const Samples& block) = 0;
-    /// The gate changes `half_us` half-microseconds after tick 0; called before the block with this tick.
-    virtual void laser(std::int64_t half_us, bool on) { (void)half_us, (void)on; }
-};
-
-/// Inputs of the card tick by tick, if they are known in advance.
-class Inputs {
-  public:
-    virtual ~Inputs() = default;
-    /// Counts (x4, wrapping) of an encoder at `first`, `first` + 1, ..
-    virtual void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) = 0;
-    /// Gets the McBSP word that is complete at these ticks; returns false if this source delivers no words.
-    virtual bool words(std::int64_t first, std::span<std::uint32_t> out) { return (void)first, (void)out, false; }
-};
-
-/// Result of an external start.
-enum class StartFate : std::uint8_t {
-    begun,     ///< the list began
-    busy,      ///< lost: a list was running or the card was moving when the start was due
-    too_many,  ///< lost on arrival: eight starts were waiting
-};
-
-/// Notified of lists that begin by an external start and of lists that end, within the tick; must not command the card.
-class ListListener {
-  public:
-    virtual ~ListListener() = default;
-    virtual void started(std::int64_t tick, StartFate fate) = 0;
-    virtual void ended(std::int64_t tick) = 0;
-};
-
 class Engine {
   public:
     /// `settings` must pass check().
     explicit Engine(const Settings& settings = {});
+    Engine(const Engine&) = delete;
+    Engine& operator=(const Engine&) = delete;
 
     // ---- lists (lists.cpp)
     /// list2 of -1: the remaining memory.
@@ -140,8 +102,8 @@ class Engine {
     /// Signals that are sent from the next tick on, one per tick, in turn; none: sending ends. At most 8.
     Result<void> set_mcbsp_out(std::span<const std::uint32_t> signals);
     /// Disabling switches the laser off and blocks it until it is enabled again.
-    void enable_laser() { state_.laser.disabled = 0; }
-    void disable_laser();
+    void enable_laser() { laser_.enable(); }
+    void disable_laser() { laser_.disable(); }
     /// Ends a recording; its samples are kept.
     void stop_trigger() { state_.recording.period = 0; }
 
@@ -153,9 +115,9 @@ class Engine {
     /// Records a tick in which both lines of an encoder changed.
     void encoder_sequence_error(int encoder);
     /// Sets the source of inputs; nullptr: set_count and receive.
-    void set_inputs(Inputs* inputs) { inputs_ = inputs, not_due_.forget(); }
+    void set_inputs(Inputs* inputs) { connections_.inputs = inputs, not_due_.forget(); }
     /// Sets the listener; nullptr: none.
-    void set_listener(ListListener* listener) { listener_ = listener; }
+    void set_listener(ListListener* listener) { connections_.listener = listener; }
 
     // ---- running
     /// Runs the ticks before `tick`.
@@ -210,13 +172,6 @@ class Engine {
 
   private:
     static constexpr std::size_t block = kernels::block;
-    using Doubles = std::array<double, block>;
-    struct Scratch {
-        Doubles x, y, ec[2], head_x, head_y;
-        std::array<std::int32_t, block> raw[2], counts[2], values[2], out[4];
-        std::array<std::uint32_t, block> words;
-        std::array<std::uint8_t, block> laser;
-    };
 
     // engine.cpp
     void begin_tick();
@@ -319,10 +274,6 @@ class Engine {
     void record();
     std::int32_t value_of(const SignalInfo& signal) const;
 
-    // laser.cpp
-    void switch_laser(std::int64_t half_us, bool on, std::int64_t tick);
-    void laser_until(std::int64_t tick);
-
     // control.cpp
     void set_online(std::size_t which, double value);
     template <class Change>
@@ -336,14 +287,12 @@ class Engine {
     std::unique_ptr<Command[], Free> memory_;
     std::unique_ptr<std::int32_t[], Free> recorded_;
     State state_;
-    Inputs* inputs_ = nullptr;
-    ListListener* listener_ = nullptr;
+    Connections connections_;
     NotDue not_due_;
     std::array<std::shared_ptr<const Table>, table_count> tables_;
     std::shared_ptr<const FlyTable> fly_table_;
-    std::unique_ptr<Scratch> scratch_;
-    Sink* sink_ = nullptr;     // sink of the run
-    std::int64_t filled_ = 0;  // the laser's samples are complete up to this tick
+    std::unique_ptr<BlockBuffers> buffers_ = std::make_unique<BlockBuffers>();
+    LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
     bool until_rest_ = false;  // the run ends when the card is idle
     PlanExtent extent_;
     double block_z_ = 0;     // Z of the block's last tick

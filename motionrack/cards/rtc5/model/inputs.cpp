@@ -17,12 +17,12 @@ void Engine::sample_inputs() {
         BeltCounter& e = state_.encoders[static_cast<std::size_t>(number)];
         e.previous = e.count();
         std::int32_t raw = wrapped(state_.input[static_cast<std::size_t>(number)]);
-        if (inputs_ != nullptr) inputs_->counts(number, state_.tick, {&raw, 1});
+        if (connections_.inputs != nullptr) connections_.inputs->counts(number, state_.tick, {&raw, 1});
         e.travel += e.simulated ? simulated_counts : wrapped(raw - e.raw);
         e.raw = raw;
     }
     if (state_.speed_watched) {
-        for (std::size_t e = 0; e < encoder_count; ++e) scratch_->counts[e][0] = state_.encoders[e].count();
+        for (std::size_t e = 0; e < encoder_count; ++e) buffers_->counts[e][0] = state_.encoders[e].count();
         filter_speed(0, 1);
     }
     state_.mcbsp.previous = state_.mcbsp.word;
@@ -35,7 +35,7 @@ void Engine::filter_speed(std::size_t first, std::size_t n) {
     const double through = 1 - state_.speed_smooth;
     for (std::size_t number = 0; number < encoder_count; ++number) {
         BeltCounter& e = state_.encoders[number];
-        const auto& counts = scratch_->counts[number];
+        const auto& counts = buffers_->counts[number];
         for (std::size_t i = first; i < n; ++i) {
             const std::int64_t before = i == 0 ? e.previous : counts[i - 1];
             const double speed = 100.0 * wrapped(counts[i] - before);
@@ -57,7 +57,7 @@ void Engine::receive(std::uint32_t word) {
 void Engine::take_words() {
     McBsp& m = state_.mcbsp;
     std::uint32_t word = 0;
-    if (inputs_ != nullptr && inputs_->words(state_.tick, {&word, 1})) {
+    if (connections_.inputs != nullptr && connections_.inputs->words(state_.tick, {&word, 1})) {
         take_word(word);
     } else {
         for (std::size_t i = 0; i < static_cast<std::size_t>(m.pending_count); ++i) take_word(m.pending[i]);
@@ -97,21 +97,21 @@ void Engine::store_word() {
 }
 
 bool Engine::load_words(std::size_t n) {
-    return inputs_ != nullptr && inputs_->words(state_.tick, {scratch_->words.data(), n});
+    return connections_.inputs != nullptr && connections_.inputs->words(state_.tick, {buffers_->words.data(), n});
 }
 
 /// Encoder counts of n ticks from now on.
 void Engine::load_counts(int encoder, std::size_t n) {
     const BeltCounter& e = state_.encoders[static_cast<std::size_t>(encoder)];
-    std::int32_t* const out = scratch_->counts[encoder].data();
+    std::int32_t* const out = buffers_->counts[encoder].data();
     const auto begin = static_cast<std::uint32_t>(e.count());
     if (e.simulated) {
         for (std::size_t i = 0; i < n; ++i)
             out[i] = static_cast<std::int32_t>(begin + static_cast<std::uint32_t>(simulated_counts) *
                                                            static_cast<std::uint32_t>(i));
-    } else if (inputs_ != nullptr && n > 1) {
-        std::int32_t* const raw = scratch_->raw[encoder].data();
-        inputs_->counts(encoder, state_.tick, {raw, n});
+    } else if (connections_.inputs != nullptr && n > 1) {
+        std::int32_t* const raw = buffers_->raw[encoder].data();
+        connections_.inputs->counts(encoder, state_.tick, {raw, n});
         for (std::size_t i = 0; i < n; ++i)
             out[i] = static_cast<std::int32_t>(
                 begin + (static_cast<std::uint32_t>(raw[i]) - static_cast<std::uint32_t>(raw[0])));
@@ -123,8 +123,8 @@ void Engine::load_counts(int encoder, std::size_t n) {
 /// Counts used by the correction, advanced by the tracking error.
 void Engine::effective_counts(int encoder, std::size_t n) {
     load_counts(encoder, n);
-    const std::int32_t* const counts = scratch_->counts[encoder].data();
-    double* const out = scratch_->ec[encoder].data();
+    const std::int32_t* const counts = buffers_->counts[encoder].data();
+    double* const out = buffers_->effective[encoder].data();
     const double ahead = static_cast<double>(state_.tracking_error[static_cast<std::size_t>(encoder)]);
     if (ahead == 0) {
         for (std::size_t i = 0; i < n; ++i) out[i] = counts[i];
@@ -154,12 +154,12 @@ Point Engine::mcbsp_now() const {
 void Engine::mcbsp_values(std::size_t n) {
     const Point now = mcbsp_now();
     const bool many = n > 1 && load_words(n), multi = state_.fly.kind == FlyKind::multi;
-    double *const x = scratch_->ec[0].data(), *const y = scratch_->ec[1].data();
+    double *const x = buffers_->effective[0].data(), *const y = buffers_->effective[1].data();
     kernels::hold(x, y, n, now);
     if (!many) return;
     Point p = now;
     for (std::size_t i = 1; i < n; ++i) {
-        const std::uint32_t word = scratch_->words[i];
+        const std::uint32_t word = buffers_->words[i];
         if (!multi) {
             x[i] = axis_value(word, false), y[i] = axis_value(word, true);
             continue;
@@ -185,15 +185,15 @@ bool Engine::met_at(std::size_t i) const {
     const Activity& a = state_.activity;
     if (i == 0) return met_now();
     if (a.kind == ActivityKind::wait_encoder) {
-        const auto& counts = scratch_->counts[a.value[1]];
+        const auto& counts = buffers_->counts[a.value[1]];
         return met(counts[i - 1], counts[i]);
     }
     if (a.kind == ActivityKind::wait_range) {
-        const std::int32_t x = scratch_->counts[0][i], y = scratch_->counts[1][i];
+        const std::int32_t x = buffers_->counts[0][i], y = buffers_->counts[1][i];
         return x >= a.value[0] && x <= a.value[1] && y >= a.value[2] && y <= a.value[3];
     }
     const bool y = a.value[1] != 0;
-    return met(axis_value(scratch_->words[i - 1], y), axis_value(scratch_->words[i], y));
+    return met(axis_value(buffers_->words[i - 1], y), axis_value(buffers_->words[i], y));
 }
 
 bool Engine::met_now() const {
@@ -215,7 +215,7 @@ bool Engine::met_now() const {
 std::int64_t Engine::wait_ticks(std::int64_t limit, bool& over) {
     const auto n = static_cast<std::size_t>(limit);
     if (state_.activity.kind == ActivityKind::wait_mcbsp) {
-        if (!load_words(n)) std::fill_n(scratch_->words.begin(), n, static_cast<std::uint32_t>(state_.mcbsp.word));
+        if (!load_words(n)) std::fill_n(buffers_->words.begin(), n, static_cast<std::uint32_t>(state_.mcbsp.word));
     } else {
         for (int e = 0; e < encoder_count; ++e) load_counts(e, n);
     }
@@ -261,7 +261,7 @@ void Engine::advance_encoders(std::int64_t n) {
     for (int number = 0; number < encoder_count; ++number) {
         BeltCounter& e = state_.encoders[static_cast<std::size_t>(number)];
         std::int32_t raw[2] = {wrapped(e.raw), wrapped(e.raw)};
-        if (inputs_ != nullptr) inputs_->counts(number, state_.tick + n - 2, raw);
+        if (connections_.inputs != nullptr) connections_.inputs->counts(number, state_.tick + n - 2, raw);
         e.travel += e.simulated ? simulated_counts * (n - 2) : wrapped(raw[0] - e.raw);
         e.previous = e.count();
         e.travel += e.simulated ? simulated_counts : wrapped(std::int64_t{raw[1]} - raw[0]);
@@ -273,17 +273,17 @@ void Engine::advance_words(std::int64_t n) {
     if (n == 1) return;
     McBsp& m = state_.mcbsp;
     std::uint32_t last[2] = {static_cast<std::uint32_t>(m.word), static_cast<std::uint32_t>(m.word)};
-    if (inputs_ != nullptr && m.multi) {
+    if (connections_.inputs != nullptr && m.multi) {
         const bool come = load_words(static_cast<std::size_t>(n));
-        for (std::size_t i = 1; come && i + 1 < static_cast<std::size_t>(n); ++i) take_word(scratch_->words[i]);
+        for (std::size_t i = 1; come && i + 1 < static_cast<std::size_t>(n); ++i) take_word(buffers_->words[i]);
     }
-    const bool come = inputs_ != nullptr && inputs_->words(state_.tick + n - 2, last);
+    const bool come = connections_.inputs != nullptr && connections_.inputs->words(state_.tick + n - 2, last);
     m.previous = last[0];
     if (m.online_rot && come) {
         // Both locations keep the last word of their kind, so each tick is evaluated.
         for (std::int64_t i = 1; i < n; ++i) {
             std::uint32_t word = 0;
-            inputs_->words(state_.tick + i, {&word, 1});
+            connections_.inputs->words(state_.tick + i, {&word, 1});
             m.word = word;
             store_word();
         }

@@ -67,7 +67,7 @@ void Engine::finish(std::int64_t tick) {
     state_.activity.kind = ActivityKind::none;
     state_.lists.moving_alone = 0;
     const Delays& d = state_.delays;
-    if (ending == Ending::laser_off) switch_laser(tick * half_us_per_tick, false, tick);
+    if (ending == Ending::laser_off) laser_.switch_at(tick * half_us_per_tick, false, tick);
     if (ending == Ending::jump) {
         std::int64_t delay = d.jump;
         const Point delta = over.to - over.from;
@@ -84,7 +84,7 @@ void Engine::finish(std::int64_t tick) {
     const Command* const next = next_mark();
     const std::int64_t delay = next != nullptr ? corner_delay(*next, cut) : d.mark;
     if (next == nullptr || cut) {
-        switch_laser(tick * half_us_per_tick + d.laser_off, false, tick);
+        laser_.switch_at(tick * half_us_per_tick + d.laser_off, false, tick);
         state_.lists.marking = 0;
     }
     begin_hold(delay);
@@ -180,7 +180,7 @@ bool Engine::begin_polyline(std::int64_t tick) {
     state_.wobbel.direction = {1, 0};
     const std::int64_t delay = state_.delays.laser_on,
                        wait = delay < 0 ? (-delay + half_us_per_tick - 1) / half_us_per_tick : 0;
-    switch_laser((tick + wait) * half_us_per_tick + delay, true, tick);
+    laser_.switch_at((tick + wait) * half_us_per_tick + delay, true, tick);
     if (wait == 0) return true;
     begin_hold(wait);
     state_.lists.next = state_.lists.current;
@@ -209,7 +209,7 @@ void Engine::take(const Command& c, std::int64_t tick) {
             return;
         case Op::laser_signal_on_list:
         case Op::laser_signal_off_list:
-            return switch_laser(tick * half_us_per_tick, c.op == Op::laser_signal_on_list, tick);
+            return laser_.switch_at(tick * half_us_per_tick, c.op == Op::laser_signal_on_list, tick);
         case Op::write_io_port_list:
             s.io = whole(0);
             return;
@@ -264,15 +264,15 @@ void Engine::take_motion(const Command& c, std::int64_t tick) {
         case Op::micro_vector_rel: {
             const auto of_this_tick = [](double v) { return v >= 0 && v < half_us_per_tick; };
             const bool on = of_this_tick(c.p[2]), off = of_this_tick(c.p[3]);
-            if (on && (!off || whole(2) < whole(3))) switch_laser(start + whole(2), true, tick);
-            if (off) switch_laser(start + whole(3), false, tick);
-            if (on && off && whole(3) <= whole(2)) switch_laser(start + whole(2), true, tick);
+            if (on && (!off || whole(2) < whole(3))) laser_.switch_at(start + whole(2), true, tick);
+            if (off) laser_.switch_at(start + whole(3), false, tick);
+            if (on && off && whole(3) <= whole(2)) laser_.switch_at(start + whole(2), true, tick);
             return begin_line(target, 0, Ending::none, 1);
         }
         case Op::long_delay:
             return begin_hold(std::max<std::int64_t>(1, whole(0)));
         case Op::laser_on_list:
-            switch_laser(start, true, tick);
+            laser_.switch_at(start, true, tick);
             return begin_hold(std::max<std::int64_t>(1, whole(0)), Ending::laser_off);
         default:
             return begin_hold(1);

@@ -188,7 +188,7 @@ void Engine::end_list(bool written, std::int64_t tick) {
         return;
     }
     l.running = 0;
-    if (listener_ != nullptr) listener_->ended(tick);
+    if (connections_.listener != nullptr) connections_.listener->ended(tick);
 }
 
 /// A call to an undefined target (-1) is a list_nop.
@@ -220,9 +220,7 @@ void Engine::stop_execution() {
     leave_fly();
     s.starts.waiting = s.starts.triggers = s.starts.asked_count = 0;
     s.starts.queue = s.starts.asked = {};
-    filled_ = s.tick;
-    s.laser.count = 0;
-    switch_laser(s.tick * half_us_per_tick, false, s.tick);
+    laser_.switch_off();
     s.recording.period = 0;
     l.loaded |= list_status_bit("USED1") | list_status_bit("USED2");
     s.startstop_info |= startstop_bit("INTERNAL_STOP");
@@ -233,16 +231,14 @@ void Engine::pause_list() {
     if (!l.running || l.paused) return;
     l.paused = 1;
     l.paused_laser = l.marking;
-    filled_ = state_.tick;
-    if (l.marking) switch_laser(state_.tick * half_us_per_tick, false, state_.tick);
+    if (l.marking) laser_.switch_now(false);
 }
 
 void Engine::restart_list() {
     Lists& l = state_.lists;
     if (!l.paused) return;
     l.paused = 0;
-    filled_ = state_.tick;
-    if (l.paused_laser) switch_laser(state_.tick * half_us_per_tick, true, state_.tick);
+    if (l.paused_laser) laser_.switch_now(true);
 }
 
 Result<void> Engine::goto_xy(double x, double y) {

@@ -8,8 +8,8 @@
 namespace motionrack::rtc5 {
 
 void Engine::run_pipeline(std::size_t n, Sink* sink) {
-    Scratch& b = *scratch_;
-    laser_until(state_.tick + static_cast<std::int64_t>(n));
+    BlockBuffers& b = *buffers_;
+    laser_.run_until(state_.tick + static_cast<std::int64_t>(n));
     if (!state_.global.neutral) kernels::transform(b.x.data(), b.y.data(), n, state_.global);
     if (state_.fly.on()) {
         apply_fly(n);
@@ -35,7 +35,7 @@ void Engine::run_pipeline(std::size_t n, Sink* sink) {
 }
 
 void Engine::apply_fly(std::size_t n) {
-    Scratch& b = *scratch_;
+    BlockBuffers& b = *buffers_;
     const Fly& f = state_.fly;
     const bool turns = f.kind == FlyKind::encoder_rot || f.kind == FlyKind::mcbsp_rot;
     if (f.kind == FlyKind::encoder || f.kind == FlyKind::encoder_2d || f.kind == FlyKind::encoder_rot) {
@@ -47,7 +47,7 @@ void Engine::apply_fly(std::size_t n) {
     if (turns) {
         const Point centre = state_.rot_center;
         for (std::size_t i = 0; i < n; ++i) {
-            const SinCos t = sin_cos(turn_of(b.ec[0][i], f.resolution));
+            const SinCos t = sin_cos(turn_of(b.effective[0][i], f.resolution));
             const double dx = b.x[i] - centre.x, dy = b.y[i] - centre.y;
             b.x[i] = centre.x + (t.cos * dx - t.sin * dy);
             b.y[i] = centre.y + (t.sin * dx + t.cos * dy);
@@ -56,16 +56,16 @@ void Engine::apply_fly(std::size_t n) {
     }
     if (f.kind == FlyKind::encoder_2d) {
         for (std::size_t i = 0; i < n; ++i) {
-            b.ec[0][i] += state_.fly_2d_offset.x;
-            b.ec[1][i] += state_.fly_2d_offset.y;
+            b.effective[0][i] += state_.fly_2d_offset.x;
+            b.effective[1][i] += state_.fly_2d_offset.y;
             if (fly_table_ == nullptr) continue;
-            const FlyTable::Shift shift = fly_table_->at(b.ec[0][i], b.ec[1][i]);
-            b.ec[0][i] += shift.x;
-            b.ec[1][i] += shift.y;
+            const FlyTable::Shift shift = fly_table_->at(b.effective[0][i], b.effective[1][i]);
+            b.effective[0][i] += shift.x;
+            b.effective[1][i] += shift.y;
         }
     }
-    if (f.x) kernels::add_scaled(b.x.data(), b.ec[0].data(), n, f.scale_x);
-    if (f.y) kernels::add_scaled(b.y.data(), b.ec[1].data(), n, f.scale_y);
+    if (f.x) kernels::add_scaled(b.x.data(), b.effective[0].data(), n, f.scale_x);
+    if (f.y) kernels::add_scaled(b.y.data(), b.effective[1].data(), n, f.scale_y);
 }
 
 void Engine::raise(std::uint32_t bits, std::int64_t tick) {
@@ -75,13 +75,13 @@ void Engine::raise(std::uint32_t bits, std::int64_t tick) {
 }
 
 void Engine::check_flags(std::size_t n) {
-    const Scratch& b = *scratch_;
+    const BlockBuffers& b = *buffers_;
     const PlanExtent e = kernels::extent(b.x.data(), b.y.data(), n);
     extent_.take(e);
     const auto& m = state_.limits;
     struct Bound {
         std::uint32_t flag;
-        const Doubles* values;
+        const BlockBuffers::Doubles* values;
         double bound, min, max;
         bool upper;
     };
@@ -113,9 +113,9 @@ void Engine::check_z(std::size_t n) {
     double at_type2 = static_cast<double>(state_.mcbsp.typed[2]);
     const bool many = multi && n > 1 && load_words(n);
     for (std::size_t i = 0; i < n; ++i) {
-        if (many && i > 0 && (scratch_->words[i] & 7) == 2)
-            at_type2 = static_cast<double>(static_cast<std::int32_t>(scratch_->words[i]) >> 3);
-        const double z = multi ? state_.z + at_type2 : state_.z + f.scale_z * scratch_->ec[encoder][i];
+        if (many && i > 0 && (buffers_->words[i] & 7) == 2)
+            at_type2 = static_cast<double>(static_cast<std::int32_t>(buffers_->words[i]) >> 3);
+        const double z = multi ? state_.z + at_type2 : state_.z + f.scale_z * buffers_->effective[encoder][i];
         std::uint32_t bits = 0;
         if (z < min_z) bits |= marking_bit("FLY_Z_UNDERFLOW");
         if (z > max_z) bits |= marking_bit("FLY_Z_OVERFLOW");
@@ -138,7 +138,7 @@ const Table* Engine::table(std::int64_t number) const {
 }
 
 void Engine::run_head(std::size_t number, std::size_t n) {
-    Scratch& b = *scratch_;
+    BlockBuffers& b = *buffers_;
     const Head& head = state_.heads[number];
     const double *x = b.x.data(), *y = b.y.data();
     if (!head.transform.neutral) {
@@ -153,7 +153,7 @@ void Engine::run_head(std::size_t number, std::size_t n) {
 
 /// Output of the last of n ticks.
 void Engine::keep_output(std::size_t n) {
-    const Scratch& b = *scratch_;
+    const BlockBuffers& b = *buffers_;
     HeadOutput& o = state_.output;
     o.a = {b.out[0][n - 1], b.out[1][n - 1]};
     o.b = state_.heads[1].table != 0 ? std::array<std::int32_t, 2>{b.out[2][n - 1], b.out[3][n - 1]}
@@ -167,7 +167,7 @@ void Engine::keep_output(std::size_t n) {
 /// Computes the output of the last tick if it was skipped.
 void Engine::evaluate() {
     if (evaluated_) return;
-    Scratch& b = *scratch_;
+    BlockBuffers& b = *buffers_;
     const Point p = state_.p + state_.wobbel.offset;
     b.x[0] = p.x, b.y[0] = p.y;
     if (!state_.global.neutral) kernels::transform(b.x.data(), b.y.data(), 1, state_.global);
@@ -183,7 +183,7 @@ std::optional<PlanExtent> Engine::steady_extent(const Activity& a, std::int64_t 
     const Fly& f = state_.fly;
     const bool encoders = f.kind == FlyKind::encoder;
     if ((!encoders && f.kind != FlyKind::mcbsp) || f.z || a.kind == ActivityKind::arc || !state_.global.neutral ||
-        inputs_ != nullptr)
+        connections_.inputs != nullptr)
         return std::nullopt;
     for (const BeltCounter& e : state_.encoders)
         if (encoders && e.simulated && e.count() + simulated_counts * std::min<std::int64_t>(n, 1 << 29) > 2147483647)

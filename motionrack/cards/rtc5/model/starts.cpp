@@ -68,7 +68,7 @@ void Engine::begin_start() {
 }
 
 void Engine::report_start(StartFate fate) {
-    if (listener_ != nullptr) listener_->started(state_.tick, fate);
+    if (connections_.listener != nullptr) connections_.listener->started(state_.tick, fate);
 }
 
 /// Ticks from the present one to that of the first waiting start, at most `limit`.
@@ -79,10 +79,10 @@ std::int64_t Engine::ticks_to_start(std::int64_t limit) {
         if (start.delay < 0) return limit;
         return std::clamp<std::int64_t>((start.target - e.travel + simulated_counts - 1) / simulated_counts, 1, limit);
     }
-    if (inputs_ == nullptr) return limit;
+    if (connections_.inputs == nullptr) return limit;
     if (!not_due_.holds(start, state_.tick, e.travel)) {
         load_counts(static_cast<int>(start.encoder), block);
-        not_due_.update(start, state_.tick, e.travel, scratch_->counts[start.encoder]);
+        not_due_.update(start, state_.tick, e.travel, buffers_->counts[start.encoder]);
     }
     return std::min(limit, not_due_.until() - state_.tick);
 }

@@ -1,12 +1,12 @@
-// The laser gate: pending changes, in half-microseconds.
+// Pending changes of the laser, in half-microseconds.
 #include <algorithm>
-#include <motionrack/cards/rtc5/model/engine.hpp>
+#include <motionrack/cards/rtc5/model/laser_control.hpp>
 
 namespace motionrack::rtc5 {
 
-void Engine::switch_laser(std::int64_t half_us, bool on, std::int64_t tick) {
-    laser_until(tick);
-    Laser& l = state_.laser;
+void LaserControl::switch_at(std::int64_t half_us, bool on, std::int64_t tick) {
+    run_until(tick);
+    Laser& l = laser_;
     if (on && l.disabled) return;
     half_us = std::max(half_us, tick * half_us_per_tick);
     const auto place = [&](std::int64_t i) { return static_cast<std::size_t>((l.head + i) % Laser::capacity); };
@@ -20,20 +20,28 @@ void Engine::switch_laser(std::int64_t half_us, bool on, std::int64_t tick) {
     l.at[place(l.count++)] = half_us;
 }
 
-void Engine::disable_laser() {
-    filled_ = state_.tick;
-    state_.laser.count = 0;
-    switch_laser(state_.tick * half_us_per_tick, false, state_.tick);
-    state_.laser.disabled = 1;
+void LaserControl::switch_now(bool on) {
+    begin_tick();
+    switch_at(tick_ * half_us_per_tick, on, tick_);
 }
 
-/// Executes the changes before `tick`, and writes their samples for a sink.
-void Engine::laser_until(std::int64_t tick) {
-    Laser& l = state_.laser;
-    std::uint8_t* const samples = sink_ != nullptr ? scratch_->laser.data() : nullptr;
+void LaserControl::switch_off() {
+    begin_tick();
+    laser_.count = 0;
+    switch_at(tick_ * half_us_per_tick, false, tick_);
+}
+
+void LaserControl::disable() {
+    switch_off();
+    laser_.disabled = 1;
+}
+
+void LaserControl::run_until(std::int64_t tick) {
+    Laser& l = laser_;
+    std::uint8_t* const samples = connections_.sink != nullptr ? buffers_.laser.data() : nullptr;
     const auto constant_to = [&](std::int64_t end) {
         if (samples != nullptr && end > filled_)
-            std::fill(samples + (filled_ - state_.tick), samples + (end - state_.tick),
+            std::fill(samples + (filled_ - tick_), samples + (end - tick_),
                       static_cast<std::uint8_t>(l.on ? half_us_per_tick : 0));
         filled_ = std::max(filled_, end);
     };
@@ -52,10 +60,10 @@ void Engine::laser_until(std::int64_t tick) {
             l.on = !l.on;
             l.head = (l.head + 1) % Laser::capacity;
             --l.count;
-            if (sink_ != nullptr) sink_->laser(at, l.on != 0);
+            if (connections_.sink != nullptr) connections_.sink->laser(at, l.on != 0);
         }
         if (l.on) gate += end - cursor;
-        if (samples != nullptr) samples[in - state_.tick] = static_cast<std::uint8_t>(gate);
+        if (samples != nullptr) samples[in - tick_] = static_cast<std::uint8_t>(gate);
         filled_ = in + 1;
     }
     constant_to(tick);

@@ -1,0 +1,39 @@
+// The laser's gate: switched in half-microseconds, at once or later.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/cards/rtc5/model/block_buffers.hpp>
+#include <motionrack/cards/rtc5/model/connections.hpp>
+#include <motionrack/cards/rtc5/model/state.hpp>
+
+namespace motionrack::rtc5 {
+
+class LaserControl {
+  public:
+    /// `laser` and `tick`: parts of the card's state.
+    LaserControl(Laser& laser, const std::int64_t& tick, const Connections& connections, BlockBuffers& buffers)
+        : laser_(laser), tick_(tick), connections_(connections), buffers_(buffers) {}
+
+    /// The samples of the present tick are not written yet.
+    void begin_tick() { filled_ = tick_; }
+    /// Switches at a half-microsecond, not before `tick`; drops later changes. A disabled laser stays off.
+    void switch_at(std::int64_t half_us, bool on, std::int64_t tick);
+    /// Switches at the begin of the present tick.
+    void switch_now(bool on);
+    /// Drops the pending changes and switches off.
+    void switch_off();
+    void enable() { laser_.disabled = 0; }
+    /// Switches off, until it is enabled.
+    void disable();
+    /// Executes the changes before `tick`, and writes their samples for a sink.
+    void run_until(std::int64_t tick);
+
+  private:
+    Laser& laser_;
+    const std::int64_t& tick_;
+    const Connections& connections_;
+    BlockBuffers& buffers_;
+    std::int64_t filled_ = 0;  // the samples are complete up to this tick
+};
+
+}  // namespace motionrack::rtc5
