@@ -9,19 +9,7 @@
 namespace motionrack::rtc5 {
 
 void Engine::load_program_file() {
-    State fresh;
-    fresh.tick = state_.tick, fresh.sampled = state_.sampled;
-    fresh.input = state_.input;
-    for (std::size_t e = 0; e < encoder_count; ++e) fresh.encoders[e].raw = state_.encoders[e].raw;
-    fresh.mcbsp.word = state_.mcbsp.word, fresh.mcbsp.previous = state_.mcbsp.previous;
-    fresh.mcbsp.memory[0] = state_.mcbsp.memory[0];
-    fresh.mcbsp.to_zero = state_.mcbsp.to_zero, fresh.mcbsp.filled = state_.mcbsp.filled & 1;
-    fresh.mcbsp.received = state_.mcbsp.received;
-    fresh.lists.begin = {0, settings_.list1, settings_.list1 + settings_.list2, settings_.list_memory};
-    fresh.lists.input_end = settings_.list1;
-    fresh.laser.on = state_.laser.on, fresh.laser.on_since = state_.laser.on_since,
-    fresh.laser.on_time = state_.laser.on_time;
-    state_ = fresh;
+    state_.reset(settings_);
     std::fill_n(memory_.get(), settings_.list_memory, Command{});
     tables_ = {};
     fly_table_.reset();

@@ -18,8 +18,7 @@ Engine::Engine(const Settings& settings) : settings_(settings) {
     memory_.reset(static_cast<Command*>(std::calloc(static_cast<std::size_t>(settings.list_memory), sizeof(Command))));
     recorded_.reset(static_cast<std::int32_t*>(std::calloc(record_values, sizeof(std::int32_t))));
     MOTIONRACK_ASSERT(memory_ != nullptr && recorded_ != nullptr);  // NOLINTEND(cppcoreguidelines-no-malloc)
-    state_.lists.begin = {0, settings.list1, settings.list1 + settings.list2, settings.list_memory};
-    state_.lists.input_end = settings.list1;
+    state_.lists.reset(settings);
 }
 
 void Engine::run_until(std::int64_t tick, Sink* sink) {

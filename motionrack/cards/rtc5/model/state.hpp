@@ -1,5 +1,5 @@
 // The state of the card except its lists and tables. Every member has 8 bytes (or comes in pairs), so no padding enters
-// a snapshot's hash.
+// a snapshot's hash. A part whose reset() keeps something has one of its own; the others become what they are at first.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <limits>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/rtc5/map.hpp>
+#include <motionrack/cards/rtc5/model/settings.hpp>
 #include <string_view>
 
 namespace motionrack::rtc5 {
@@ -102,6 +103,8 @@ struct McBsp {
         filled |= std::int64_t{1} << location;
     }
     bool online() const { return online_x || online_y || online_rot; }
+    /// Keeps the words, and location 0 with its filling.
+    void reset();
     /// Received words go there (too).
     bool goes_to(int location) const;
     /// Value of location 0 .. 3. Errors: refused if the location is empty; the sentence names the command that must
@@ -115,6 +118,9 @@ struct Laser {
     std::array<std::int64_t, capacity> at{};  ///< half-microseconds; ring buffer from head; levels alternate from !on
     std::int64_t on_since = 0, on_time = 0, lost = 0;
     std::int64_t disabled = 0;
+
+    /// Keeps what it has emitted so far.
+    void reset();
 };
 
 struct Start {
@@ -148,6 +154,8 @@ struct Lists {
     std::array<std::int64_t, subroutine_count> subroutines{};  ///< their start positions in list 3; 0: none
     std::int64_t loading = 0, list3_used = 0;                  ///< the subroutine being loaded, from 1; positions used
     std::int64_t loaded = list_status_bit("USED1") | list_status_bit("USED2");  ///< read_status without BUSY
+
+    void reset(const Settings& settings);
 };
 
 /// set_wobbel: an ellipse about p while a polyline is marked.
@@ -218,6 +226,9 @@ struct State {
     Sender sender;
     HeadOutput output;
     std::uint64_t memory_hash = 0;  ///< hash of the lists' memory: every command at its position; 0: empty
+
+    /// Keeps the time, the input lines, and what its parts keep.
+    void reset(const Settings& settings);
 };
 
 }  // namespace motionrack::rtc5
