@@ -72,7 +72,7 @@ std::size_t Engine::produce(std::size_t capacity) {
         n = micro_vectors(n, capacity);
         if (n == capacity) break;
         if (state_.lists.paused) {
-            state_.wobbel.offset = {};
+            wobbel_.clear_offset();
             kernels::hold(&buffers_->x[n], &buffers_->y[n], capacity - n, state_.p);
             return capacity;
         }
@@ -106,7 +106,7 @@ std::size_t Engine::micro_vectors(std::size_t n, std::size_t capacity) {
     l.current = at - 1;
     l.next = at;
     const Point before = at - first > 1 ? Point{buffers_->x[n - 2], buffers_->y[n - 2]} : state_.p;
-    state_.wobbel.offset = {};
+    wobbel_.clear_offset();
     a.from = before;
     state_.p = a.to = {buffers_->x[n - 1], buffers_->y[n - 1]};
     a.step = a.direction = a.to - before;
@@ -126,16 +126,16 @@ std::size_t Engine::fill(std::size_t n, std::size_t capacity) {
             a.done += static_cast<std::int64_t>(m);
             if (a.done == a.steps) x[m - 1] = a.to.x, y[m - 1] = a.to.y;
             state_.p = {x[m - 1], y[m - 1]};
-            wobble(x, y, m, a.done - static_cast<std::int64_t>(m) + 1);
+            wobbel_.add(x, y, m, a.done - static_cast<std::int64_t>(m) + 1);
             return n + m;
         case ActivityKind::arc:
             m = static_cast<std::size_t>(std::min<std::int64_t>(a.steps - a.done, static_cast<std::int64_t>(m)));
             for (std::size_t i = 0; i < m; ++i) {
-                const Point p = position_of(a, ++a.done);
+                const Point p = a.position(++a.done, state_.p);
                 x[i] = p.x, y[i] = p.y;
             }
             state_.p = {x[m - 1], y[m - 1]};
-            wobble(x, y, m, a.done - static_cast<std::int64_t>(m) + 1);
+            wobbel_.add(x, y, m, a.done - static_cast<std::int64_t>(m) + 1);
             return n + m;
         case ActivityKind::hold:
             m = static_cast<std::size_t>(std::min<std::int64_t>(a.steps - a.done, static_cast<std::int64_t>(m)));
@@ -148,17 +148,8 @@ std::size_t Engine::fill(std::size_t n, std::size_t capacity) {
         }
     }
     kernels::hold(x, y, m, state_.p);
-    wobble(x, y, m, 0);
+    wobbel_.add(x, y, m, 0);
     return n + m;
-}
-
-Point Engine::position_of(const Activity& a, std::int64_t done) const {
-    const double at = static_cast<double>(done);
-    if (a.kind == ActivityKind::line)
-        return done == a.steps ? a.to : Point{a.from.x + at * a.step.x, a.from.y + at * a.step.y};
-    if (a.kind != ActivityKind::arc) return state_.p;
-    const SinCos t = sin_cos(at * a.step.x);
-    return {a.to.x + (t.cos * a.from.x - t.sin * a.from.y), a.to.y + (t.sin * a.from.x + t.cos * a.from.y)};
 }
 
 /// Without a sink, advances over all ticks of the present activity at once if its flags are known without evaluating
@@ -166,7 +157,7 @@ Point Engine::position_of(const Activity& a, std::int64_t done) const {
 bool Engine::skip(std::int64_t limit) {
     State& s = state_;
     if (!s.lists.paused) next_step(0);
-    if (s.speed_watched || s.mcbsp.multi || samples_now() || wobbles()) return false;
+    if (s.speed_watched || s.mcbsp.multi || samples_now() || wobbel_.active()) return false;
     if (s.starts.asked_count > 0) limit = 1;
     Activity& a = s.activity;
     const bool still = s.lists.paused || a.kind == ActivityKind::none || a.kind == ActivityKind::hold;
@@ -190,8 +181,8 @@ bool Engine::skip(std::int64_t limit) {
         extent_.take(*extent);
     }
     laser_.run_until(s.tick + n);
-    s.wobbel.offset = {};
-    if (moves) s.p = position_of(a, a.done + n);
+    wobbel_.clear_offset();
+    if (moves) s.p = a.position(a.done + n, s.p);
     if (moves || (a.kind == ActivityKind::hold && !s.lists.paused)) a.done += n;
     if (over) a.done = a.steps;
     evaluated_ = false;

@@ -18,6 +18,7 @@
 #include <motionrack/cards/rtc5/model/not_due.hpp>
 #include <motionrack/cards/rtc5/model/settings.hpp>
 #include <motionrack/cards/rtc5/model/state.hpp>
+#include <motionrack/cards/rtc5/model/wobbel_motion.hpp>
 #include <optional>
 #include <string_view>
 
@@ -181,7 +182,6 @@ class Engine {
     std::size_t fill(std::size_t n, std::size_t capacity);
     bool skip(std::int64_t limit);
     void advance(std::int64_t n);
-    Point position_of(const Activity& a, std::int64_t done) const;
 
     // interpreter.cpp: the path
     bool next_step(std::size_t n);
@@ -200,9 +200,6 @@ class Engine {
     void end_list(bool written, std::int64_t tick);
     void call(std::int64_t position, std::int64_t tick);
     void come_back();
-    void set_wobbel(const Command& c);
-    bool wobbles() const;
-    void wobble(double* x, double* y, std::size_t n, std::int64_t first);
 
     // fly.cpp: commands of the pipeline
     void pipeline_command(const Command& c);
@@ -293,6 +290,7 @@ class Engine {
     std::shared_ptr<const FlyTable> fly_table_;
     std::unique_ptr<BlockBuffers> buffers_ = std::make_unique<BlockBuffers>();
     LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
+    WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
     bool until_rest_ = false;  // the run ends when the card is idle
     PlanExtent extent_;
     double block_z_ = 0;     // Z of the block's last tick

@@ -176,8 +176,7 @@ void Engine::jump_to(Point target) {
 bool Engine::begin_polyline(std::int64_t tick) {
     if (state_.lists.marking) return true;
     state_.lists.marking = 1;
-    state_.wobbel.step = 0;
-    state_.wobbel.direction = {1, 0};
+    wobbel_.begin_polyline();
     const std::int64_t delay = state_.delays.laser_on,
                        wait = delay < 0 ? (-delay + half_us_per_tick - 1) / half_us_per_tick : 0;
     laser_.switch_at((tick + wait) * half_us_per_tick + delay, true, tick);
@@ -214,7 +213,7 @@ void Engine::take(const Command& c, std::int64_t tick) {
             s.io = whole(0);
             return;
         case Op::set_wobbel:
-            return set_wobbel(c);
+            return wobbel_.set(c);
         case Op::list_call:
             return call(whole(0), tick);
         case Op::sub_call: {

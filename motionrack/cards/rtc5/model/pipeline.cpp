@@ -168,7 +168,7 @@ void Engine::keep_output(std::size_t n) {
 void Engine::evaluate() {
     if (evaluated_) return;
     BlockBuffers& b = *buffers_;
-    const Point p = state_.p + state_.wobbel.offset;
+    const Point p = state_.p + wobbel_.offset();
     b.x[0] = p.x, b.y[0] = p.y;
     if (!state_.global.neutral) kernels::transform(b.x.data(), b.y.data(), 1, state_.global);
     if (state_.fly.on()) apply_fly(1);
@@ -205,7 +205,7 @@ std::optional<PlanExtent> Engine::steady_extent(const Activity& a, std::int64_t 
     };
     PlanExtent out;
     for (const std::int64_t i : {std::int64_t{0}, std::min<std::int64_t>(1, n - 1), n - 1}) {
-        const Point p = moves ? position_of(a, a.done + i + 1) : state_.p;
+        const Point p = moves ? a.position(a.done + i + 1, state_.p) : state_.p;
         const Point q = {f.x ? p.x + f.scale_x * value(0, i) : p.x, f.y ? p.y + f.scale_y * value(1, i) : p.y};
         if (!inside(q.x, 0) || !inside(q.y, 1)) return std::nullopt;
         out.take({q.x, q.x, q.y, q.y});

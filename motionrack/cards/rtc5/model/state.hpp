@@ -58,6 +58,16 @@ struct Activity {
     Point from, step, to;                 ///< line; arc: from is the radius, to the centre, step.x the angle of a step
     std::array<std::int64_t, 4> value{};  ///< waits: values; then encoder or axis, mode
     Point direction;                      ///< direction at its end, for the corner
+
+    /// After `steps_done` steps. `stationary`: the position in which other activities than lines and arcs stay.
+    Point position(std::int64_t steps_done, Point stationary) const {
+        const double at = static_cast<double>(steps_done);
+        if (kind == ActivityKind::line)
+            return steps_done == steps ? to : Point{from.x + at * step.x, from.y + at * step.y};
+        if (kind != ActivityKind::arc) return stationary;
+        const SinCos t = sin_cos(at * step.x);
+        return {to.x + (t.cos * from.x - t.sin * from.y), to.y + (t.sin * from.x + t.cos * from.y)};
+    }
 };
 
 struct BeltCounter {

@@ -1,33 +1,22 @@
-// The wobbel: while a polyline is marked, the position circles on an ellipse about the path.
-//
-//        transversal * sin
-//          ▲    ╭──╮
-//   path ──┼───►│  │───► longitudinal * cos, along the motion
-//               ╰──╯
+// Steps of the ellipse about the path.
 #include <cmath>
 #include <motionrack/base/trig.hpp>
-#include <motionrack/cards/rtc5/model/engine.hpp>
+#include <motionrack/cards/rtc5/model/wobbel_motion.hpp>
 
 namespace motionrack::rtc5 {
 
-void Engine::set_wobbel(const Command& c) {
-    Wobbel& w = state_.wobbel;
+void WobbelMotion::set(const Command& c) {
+    Wobbel& w = wobbel_;
     w.transversal = c.p[0], w.longitudinal = c.p[1], w.turns = c.p[2] / 100'000;
     w.step = 0;
     w.direction = {1, 0};
 }
 
-/// Advances the wobbel in the present tick, after its commands.
-bool Engine::wobbles() const {
-    return state_.wobbel.on() && state_.lists.marking && !state_.lists.paused;
-}
-
-/// Positions of n ticks of the activity, from its step `first` on.
-void Engine::wobble(double* x, double* y, std::size_t n, std::int64_t first) {
-    Wobbel& w = state_.wobbel;
+void WobbelMotion::add(double* x, double* y, std::size_t n, std::int64_t first) {
+    Wobbel& w = wobbel_;
     w.offset = {};
-    if (!wobbles()) return;
-    const Activity& a = state_.activity;
+    if (!active()) return;
+    const Activity& a = activity_;
     const auto along = [&](Point d) {
         const double length = std::sqrt(d.x * d.x + d.y * d.y);
         w.direction = length > 0 ? Point{d.x / length, d.y / length} : Point{1, 0};
@@ -35,7 +24,7 @@ void Engine::wobble(double* x, double* y, std::size_t n, std::int64_t first) {
     if (a.kind == ActivityKind::line) along(a.direction);
     for (std::size_t i = 0; i < n; ++i) {
         if (a.kind == ActivityKind::arc) {
-            const Point radius = position_of(a, first + static_cast<std::int64_t>(i)) - a.to;
+            const Point radius = a.position(first + static_cast<std::int64_t>(i), {}) - a.to;
             along(a.step.x < 0 ? Point{radius.y, -radius.x} : Point{-radius.y, radius.x});
         }
         const double turns = static_cast<double>(++w.step) * w.turns;
