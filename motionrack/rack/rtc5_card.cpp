@@ -46,7 +46,7 @@ struct WordValue {
 };
 constexpr WordValue values[] = {
     {"STATUS", [](const Engine& e) { return std::int64_t{e.status()}; }},
-    {"MARKING_INFO", [](const Engine& e) { return e.state().marking_info; }},
+    {"MARKING_INFO", [](const Engine& e) { return e.state().flags.marking_info; }},
     {"STARTSTOP_INFO", [](const Engine& e) { return std::int64_t{e.startstop_info()}; }},
     {"LIST_STATUS", [](const Engine& e) { return std::int64_t{e.list_status()}; }},
     {"XOUT", [](const Engine& e) { return std::int64_t{e.output().a[0]}; }},

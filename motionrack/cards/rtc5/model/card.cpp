@@ -155,15 +155,16 @@ void Card::count_line(std::size_t encoder, std::int64_t bit, int level, Instant 
 
 void Card::notify() {
     const State& s = engine_.state();
-    const std::int64_t fresh = s.marking_info & ~lines_.reported_flags;
+    const std::int64_t fresh = s.flags.marking_info & ~lines_.reported_flags;
     if (fresh != 0)
         for (std::int64_t bit = 0; bit < 32; ++bit)
-            if (fresh >> bit & 1) report(CardCondition::flag_set, bit, s.flag_tick[static_cast<std::size_t>(bit)]);
-    lines_.reported_flags = s.marking_info;
+            if (fresh >> bit & 1)
+                report(CardCondition::flag_set, bit, s.flags.flag_tick[static_cast<std::size_t>(bit)]);
+    lines_.reported_flags = s.flags.marking_info;
     if (s.lists.ended_unwritten > lines_.reported_unwritten)
         report(CardCondition::unwritten_place, s.lists.current, s.tick - 1);
     lines_.reported_unwritten = s.lists.ended_unwritten;
-    const std::int64_t lost = s.startstop_info & startstop_bit("START_LOST");
+    const std::int64_t lost = s.flags.startstop_info & startstop_bit("START_LOST");
     if (lost != 0 && lines_.reported_lost == 0) report(CardCondition::start_lost, 0, s.tick - 1);
     lines_.reported_lost = lost;
 }

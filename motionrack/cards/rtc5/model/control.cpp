@@ -124,14 +124,8 @@ void Engine::init_fly_2d(std::int32_t offset_x, std::int32_t offset_y) {
     state_.fly_2d_offset = {static_cast<double>(offset_x), static_cast<double>(offset_y)};
 }
 
-void Engine::external_stop() {
-    const std::int64_t before = state_.startstop_info;
-    stop_execution();
-    state_.startstop_info = before | startstop_bit("EXTERNAL_STOP");
-}
-
 void Engine::encoder_sequence_error(int encoder) {
-    raise(encoder == 0 ? marking_bit("ENCODER_X_SEQUENCE") : marking_bit("ENCODER_Y_SEQUENCE"), state_.tick);
+    flags_.raise(encoder == 0 ? marking_bit("ENCODER_X_SEQUENCE") : marking_bit("ENCODER_Y_SEQUENCE"), state_.tick);
 }
 
 std::uint32_t Engine::status() const {
@@ -157,20 +151,14 @@ std::int64_t Engine::multi_power() const {
     return m.power_factor * m.typed[3] / 16384;
 }
 
-std::uint32_t Engine::get_marking_info() {
-    const auto out = static_cast<std::uint32_t>(state_.marking_info);
-    state_.marking_info &= kept_when_read;
-    return out;
-}
-
 std::uint32_t Engine::startstop_info() const {
-    return static_cast<std::uint32_t>(state_.startstop_info) | startstop_bit("NO_STOP_SIGNAL") |
+    return flags_.startstop_info() | startstop_bit("NO_STOP_SIGNAL") |
            (state_.laser.disabled ? 0 : startstop_bit("LASER_ENABLED"));
 }
 
 std::uint32_t Engine::get_startstop_info() {
     const std::uint32_t out = startstop_info();
-    state_.startstop_info = 0;
+    flags_.clear_startstop_info();
     return out;
 }
 

@@ -18,6 +18,7 @@
 #include <motionrack/cards/rtc5/model/not_due.hpp>
 #include <motionrack/cards/rtc5/model/settings.hpp>
 #include <motionrack/cards/rtc5/model/state.hpp>
+#include <motionrack/cards/rtc5/model/status_flags.hpp>
 #include <motionrack/cards/rtc5/model/wobbel_motion.hpp>
 #include <optional>
 #include <string_view>
@@ -52,7 +53,7 @@ class Engine {
     void auto_change() { state_.lists.auto_change = 1; }
     void start_loop() { state_.lists.loop = 1; }
     void quit_loop() { state_.lists.loop = 0; }
-    void stop_execution();
+    void stop_execution() { stop(startstop_bit("INTERNAL_STOP")); }
     void pause_list();
     void restart_list();
     /// Jumps at the jump speed; only while no list runs.
@@ -110,7 +111,7 @@ class Engine {
 
     // ---- external inputs
     void external_start() { ++state_.starts.triggers; }
-    void external_stop();
+    void external_stop() { stop(startstop_bit("EXTERNAL_STOP")); }
     void set_count(int encoder, std::int32_t counts) { state_.input[static_cast<std::size_t>(encoder)] = counts; }
     void receive(std::uint32_t word);
     /// Records a tick in which both lines of an encoder changed.
@@ -139,7 +140,7 @@ class Engine {
     Result<std::int32_t> read_mcbsp(int location) const { return state_.mcbsp.read(location); }
     std::int32_t read_multi_mcbsp(int type) const { return state_.mcbsp.typed[static_cast<std::size_t>(type & 7)]; }
     /// Reads and clears by the rules of RULES.md.
-    std::uint32_t get_marking_info();
+    std::uint32_t get_marking_info() { return flags_.take_marking_info(); }
     /// Both counts of store_encoder, `pos` 0 or 1.
     std::array<std::int32_t, 2> read_encoder(int pos) const;
     /// Value that set_multi_mcbsp_in puts on the port: that of type 3 (mode 0), or factor * value / 16384 (mode 1).
@@ -214,7 +215,6 @@ class Engine {
     void turn(FlyKind kind, double resolution);
     void zero_encoder(std::size_t encoder);
     bool empty_cycle(std::initializer_list<std::size_t> encoders);
-    void condition(const Command& c);
     void park(const Command& c);
     void leave_fly();
     Point fly_of(Point p, bool backwards) const;
@@ -251,12 +251,11 @@ class Engine {
 
     // lists.cpp
     void open(std::int64_t input, std::int64_t end);
+    void stop(std::uint32_t cause);
 
     // pipeline.cpp
     void run_pipeline(std::size_t n, Sink* sink);
     void apply_fly(std::size_t n);
-    void raise(std::uint32_t bits, std::int64_t tick);
-    void check_flags(std::size_t n);
     void check_z(std::size_t n);
     double z_now() const;
     void run_head(std::size_t number, std::size_t n);
@@ -289,6 +288,7 @@ class Engine {
     std::array<std::shared_ptr<const Table>, table_count> tables_;
     std::shared_ptr<const FlyTable> fly_table_;
     std::unique_ptr<BlockBuffers> buffers_ = std::make_unique<BlockBuffers>();
+    StatusFlags flags_{state_.flags, state_.limits};
     LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
     WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
     bool until_rest_ = false;  // the run ends when the card is idle

@@ -13,14 +13,6 @@ Point through(const Transform& t, Point p) {
     return {t.product[0] * p.x + t.product[1] * p.y + t.offset.x, t.product[2] * p.x + t.product[3] * p.y + t.offset.y};
 }
 
-/// Values that set_fly_limits and set_fly_limits_z watch, for X, Y, Z.
-struct LimitBits {
-    std::uint32_t below = 0, above = 0;
-};
-constexpr std::array<LimitBits, 3> limit_bits = {{{marking_bit("LIMIT_X_MIN"), marking_bit("LIMIT_X_MAX")},
-                                                  {marking_bit("LIMIT_Y_MIN"), marking_bit("LIMIT_Y_MAX")},
-                                                  {marking_bit("LIMIT_Z_MIN"), marking_bit("LIMIT_Z_MAX")}}};
-
 }  // namespace
 
 void Engine::pipeline_command(const Command& c) {
@@ -41,18 +33,10 @@ void Engine::pipeline_command(const Command& c) {
         case Op::wait_for_mcbsp:
             return wait(c);
         case Op::set_fly_limits:
-            for (std::size_t i = 0; i < 4; ++i) s.limits[i] = whole(i);
-            return;
         case Op::set_fly_limits_z:
-            s.limits[4] = whole(0), s.limits[5] = whole(1);
-            return;
-        case Op::clear_fly_overflow: {
-            const std::int64_t mode = whole(0);
-            for (std::size_t axis = 0; axis < limit_bits.size(); ++axis)
-                if (mode == 0 || (mode >> axis & 1))
-                    s.marking_info &= ~std::int64_t{limit_bits[axis].below | limit_bits[axis].above};
-            return;
-        }
+            return flags_.set_limits(c);
+        case Op::clear_fly_overflow:
+            return flags_.clear_limit_flags(whole(0));
         case Op::park_position:
         case Op::park_return:
             return park(c);
@@ -64,8 +48,10 @@ void Engine::pipeline_command(const Command& c) {
         default:
             break;
     }
-    if (c.op >= Op::if_fly_x_overflow && c.op <= Op::if_not_fly_z_overflow) return condition(c);
-    control_command(c);
+    if (c.op >= Op::if_fly_x_overflow && c.op <= Op::if_not_fly_z_overflow)
+        s.lists.skip = !flags_.take_condition(c);
+    else
+        control_command(c);
 }
 
 /// Executes commands that are list forms of control commands.
@@ -80,7 +66,7 @@ void Engine::control_command(const Command& c) {
             if (s.asked_count < start_queue)
                 s.asked[static_cast<std::size_t>(s.asked_count++)] = {0, whole(0), whole(1)};
             else
-                state_.startstop_info |= startstop_bit("START_LOST");
+                flags_.raise_startstop(startstop_bit("START_LOST"));
             return;
         case Op::set_control_mode_list:
             state_.control_mode = whole(0);
@@ -190,7 +176,7 @@ void Engine::set_fly(const Command& c) {
             both(FlyKind::encoder);
             break;
         case Op::activate_fly_2d:
-            if (fly_table_ == nullptr) return raise(marking_bit("ACTIVATE_FLY_ERROR"), state_.tick);
+            if (fly_table_ == nullptr) return flags_.raise(marking_bit("ACTIVATE_FLY_ERROR"), state_.tick);
             both(FlyKind::encoder_2d);
             break;
         default:
@@ -329,15 +315,6 @@ void Engine::park(const Command& c) {
         if (c.p[0] == 0) target = s.park_from;
     }
     jump_to(target);
-}
-
-void Engine::condition(const Command& c) {
-    const auto number = static_cast<std::uint32_t>(c.op) - static_cast<std::uint32_t>(Op::if_fly_x_overflow);
-    const auto [below, above] = limit_bits[number % 3];
-    const std::int64_t bits = c.p[0] > 0 ? above : c.p[0] < 0 ? below : below | above;
-    const bool holds = ((state_.marking_info & bits) != 0) == (number < 3);
-    state_.marking_info &= ~bits;
-    state_.lists.skip = !holds;
 }
 
 void Engine::wait(const Command& c) {

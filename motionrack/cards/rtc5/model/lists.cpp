@@ -168,7 +168,7 @@ Result<void> Engine::execute_at(std::int64_t position) {
     l.running = 1;
     l.depth = 0;
     l.next = l.current = position;
-    state_.startstop_info |= startstop_bit("INTERNAL_START");
+    flags_.raise_startstop(startstop_bit("INTERNAL_START"));
     return {};
 }
 
@@ -212,7 +212,8 @@ void Engine::come_back() {
     l.next = l.returns[static_cast<std::size_t>(--l.depth)];
 }
 
-void Engine::stop_execution() {
+/// `cause`: bit of the start and stop info.
+void Engine::stop(std::uint32_t cause) {
     State& s = state_;
     Lists& l = s.lists;
     l.running = l.depth = l.paused = l.skip = l.again = l.marking = l.moving_alone = l.auto_change = l.loop = 0;
@@ -223,7 +224,7 @@ void Engine::stop_execution() {
     laser_.switch_off();
     s.recording.period = 0;
     l.loaded |= list_status_bit("USED1") | list_status_bit("USED2");
-    s.startstop_info |= startstop_bit("INTERNAL_STOP");
+    flags_.raise_startstop(cause);
 }
 
 void Engine::pause_list() {

@@ -1,6 +1,5 @@
 // Computation of outputs from positions, block by block.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/rtc5/model/engine.hpp>
@@ -13,7 +12,9 @@ void Engine::run_pipeline(std::size_t n, Sink* sink) {
     if (!state_.global.neutral) kernels::transform(b.x.data(), b.y.data(), n, state_.global);
     if (state_.fly.on()) {
         apply_fly(n);
-        check_flags(n);
+        const PlanExtent extent = kernels::extent(b.x.data(), b.y.data(), n);
+        extent_.take(extent);
+        flags_.check(b, extent, state_.tick);
         check_z(n);
     }
     const bool recorded = samples_now();
@@ -68,42 +69,6 @@ void Engine::apply_fly(std::size_t n) {
     if (f.y) kernels::add_scaled(b.y.data(), b.effective[1].data(), n, f.scale_y);
 }
 
-void Engine::raise(std::uint32_t bits, std::int64_t tick) {
-    for (std::uint32_t left = bits & ~static_cast<std::uint32_t>(state_.marking_info); left != 0; left &= left - 1)
-        state_.flag_tick[static_cast<std::size_t>(std::countr_zero(left))] = tick;
-    state_.marking_info |= bits;
-}
-
-void Engine::check_flags(std::size_t n) {
-    const BlockBuffers& b = *buffers_;
-    const PlanExtent e = kernels::extent(b.x.data(), b.y.data(), n);
-    extent_.take(e);
-    const auto& m = state_.limits;
-    struct Bound {
-        std::uint32_t flag;
-        const BlockBuffers::Doubles* values;
-        double bound, min, max;
-        bool upper;
-    };
-    const auto limit = [&](std::size_t i) { return static_cast<double>(m[i]); };
-    const Bound bounds[] = {
-        {marking_bit("FLY_X_UNDERFLOW"), &b.x, min_field, e.min_x, e.max_x, false},
-        {marking_bit("FLY_X_OVERFLOW"), &b.x, max_field, e.min_x, e.max_x, true},
-        {marking_bit("FLY_Y_UNDERFLOW"), &b.y, min_field, e.min_y, e.max_y, false},
-        {marking_bit("FLY_Y_OVERFLOW"), &b.y, max_field, e.min_y, e.max_y, true},
-        {marking_bit("LIMIT_X_MIN"), &b.x, limit(0), e.min_x, e.max_x, false},
-        {marking_bit("LIMIT_X_MAX"), &b.x, limit(1), e.min_x, e.max_x, true},
-        {marking_bit("LIMIT_Y_MIN"), &b.y, limit(2), e.min_y, e.max_y, false},
-        {marking_bit("LIMIT_Y_MAX"), &b.y, limit(3), e.min_y, e.max_y, true},
-    };
-    for (const Bound& c : bounds) {
-        if (!(c.upper ? c.max > c.bound : c.min < c.bound) || (state_.marking_info & c.flag)) continue;
-        std::size_t i = 0;
-        while (!(c.upper ? (*c.values)[i] > c.bound : (*c.values)[i] < c.bound)) ++i;
-        raise(c.flag, state_.tick + static_cast<std::int64_t>(i));
-    }
-}
-
 void Engine::check_z(std::size_t n) {
     const Fly& f = state_.fly;
     const bool multi = f.kind == FlyKind::multi;
@@ -116,12 +81,7 @@ void Engine::check_z(std::size_t n) {
         if (many && i > 0 && (buffers_->words[i] & 7) == 2)
             at_type2 = static_cast<double>(static_cast<std::int32_t>(buffers_->words[i]) >> 3);
         const double z = multi ? state_.z + at_type2 : state_.z + f.scale_z * buffers_->effective[encoder][i];
-        std::uint32_t bits = 0;
-        if (z < min_z) bits |= marking_bit("FLY_Z_UNDERFLOW");
-        if (z > max_z) bits |= marking_bit("FLY_Z_OVERFLOW");
-        if (z < static_cast<double>(state_.limits[4])) bits |= marking_bit("LIMIT_Z_MIN");
-        if (z > static_cast<double>(state_.limits[5])) bits |= marking_bit("LIMIT_Z_MAX");
-        if (bits != 0) raise(bits, state_.tick + static_cast<std::int64_t>(i));
+        flags_.check_z(z, state_.tick + static_cast<std::int64_t>(i));
         block_z_ = z;
     }
 }
@@ -190,11 +150,6 @@ std::optional<PlanExtent> Engine::steady_extent(const Activity& a, std::int64_t 
             return std::nullopt;
     if (n > 1 << 28) return std::nullopt;
     const bool moves = a.kind == ActivityKind::line && !state_.lists.paused;
-    const auto inside = [&](double v, std::size_t axis) {
-        const double min_bits = std::max(min_field, static_cast<double>(state_.limits[2 * axis])) + 1;
-        const double max_bits = std::min(max_field, static_cast<double>(state_.limits[2 * axis + 1])) - 1;
-        return v > min_bits && v < max_bits;
-    };
     const Point words = mcbsp_now();
     const auto value = [&](std::size_t axis, std::int64_t i) {
         if (!encoders) return axis == 0 ? words.x : words.y;
@@ -207,7 +162,7 @@ std::optional<PlanExtent> Engine::steady_extent(const Activity& a, std::int64_t 
     for (const std::int64_t i : {std::int64_t{0}, std::min<std::int64_t>(1, n - 1), n - 1}) {
         const Point p = moves ? a.position(a.done + i + 1, state_.p) : state_.p;
         const Point q = {f.x ? p.x + f.scale_x * value(0, i) : p.x, f.y ? p.y + f.scale_y * value(1, i) : p.y};
-        if (!inside(q.x, 0) || !inside(q.y, 1)) return std::nullopt;
+        if (!flags_.is_inside(q.x, 0) || !flags_.is_inside(q.y, 1)) return std::nullopt;
         out.take({q.x, q.x, q.y, q.y});
     }
     return out;

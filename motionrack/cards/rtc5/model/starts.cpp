@@ -32,7 +32,7 @@ void Engine::enqueue(std::int32_t delay, int encoder) {
     if (!(state_.control_mode & control_ext_start)) return;
     if (delay == 0) return begin_start();
     if (s.waiting == start_queue) {
-        state_.startstop_info |= startstop_bit("START_LOST");
+        flags_.raise_startstop(startstop_bit("START_LOST"));
         return report_start(StartFate::too_many);
     }
     std::int64_t from = state_.encoders[static_cast<std::size_t>(encoder)].travel;
@@ -52,8 +52,8 @@ void Engine::begin_start() {
     for (std::size_t e = 0; e < encoder_count; ++e) s.last[e] = state_.encoders[e].travel;
     s.has_last = 1;
     if (l.running || l.moving_alone) {
-        raise(marking_bit("TRIGGER_ERROR"), state_.tick);
-        state_.startstop_info |= startstop_bit("START_LOST");
+        flags_.raise(marking_bit("TRIGGER_ERROR"), state_.tick);
+        flags_.raise_startstop(startstop_bit("START_LOST"));
         return report_start(StartFate::busy);
     }
     for (BeltCounter& e : state_.encoders) {
@@ -63,7 +63,7 @@ void Engine::begin_start() {
     l.running = 1;
     l.depth = 0;
     l.next = l.current = s.position;
-    state_.startstop_info |= startstop_bit("EXTERNAL_START");
+    flags_.raise_startstop(startstop_bit("EXTERNAL_START"));
     report_start(StartFate::begun);
 }
 

@@ -122,6 +122,14 @@ struct McBsp {
     Result<std::int32_t> read(int location) const;
 };
 
+/// Corrected positions without a LIMIT flag: min and max of X, of Y, of Z.
+using FlyLimits = std::array<std::int64_t, 6>;
+
+struct FlagsState {
+    std::int64_t marking_info = 0, startstop_info = 0;
+    std::array<std::int64_t, 32> flag_tick{};  ///< tick at which a bit of marking info was set, since it was last clear
+};
+
 struct Laser {
     static constexpr std::int64_t capacity = 16;
     std::int64_t on = 0, count = 0, head = 0;
@@ -219,13 +227,12 @@ struct State {
     Fly fly, paused_fly;
     Point park_from, rot_center, fly_2d_offset;
     std::int64_t parked = 0;
-    std::array<std::int64_t, 6> limits{-8388608, 8388607, -8388608, 8388607, -8388608, 8388607};
+    FlyLimits limits{-8388608, 8388607, -8388608, 8388607, -8388608, 8388607};
     McBsp mcbsp;
     Laser laser;
     Starts starts;
     std::int64_t control_mode = 0;
-    std::int64_t marking_info = 0, startstop_info = 0;
-    std::array<std::int64_t, 32> flag_tick{};  ///< tick at which a bit of marking info was set, since it was last clear
+    FlagsState flags;
     Transform global;
     std::array<Head, head_count> heads{};
     std::int64_t later_count = 0;      ///< transforms pending until the next jump: bit HeadNo

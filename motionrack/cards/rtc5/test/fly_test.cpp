@@ -275,7 +275,7 @@ TEST(Rtc5Fly, PositionsOutsideTheFieldAreClippedFlaggedAndReported) {
     rig.put(Op::long_delay, {3000});
     rig.go();
     EXPECT_EQ(rig.last_x(), 524'287);
-    EXPECT_EQ(rig.card.state().flag_tick[1], 1000);
+    EXPECT_EQ(rig.card.state().flags.flag_tick[1], 1000);
     EXPECT_EQ(decoded(rig.card.get_marking_info(), map::marking_info_bits),
               std::vector<std::string>{"FLY_X_OVERFLOW: the corrected X was above 524287"});
 }

@@ -324,9 +324,9 @@ class Pair {
             EXPECT_EQ(s.mcbsp.filled >> i & 1, twin_.locations[i].has_value()) << "location " << i;
         }
         for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(s.mcbsp.typed[i], twin_.typed[i]) << i;
-        EXPECT_EQ(static_cast<std::uint32_t>(s.marking_info), twin_.marking);
-        EXPECT_EQ(static_cast<std::uint32_t>(s.startstop_info), twin_.startstop);
-        for (std::size_t i = 0; i < 32; ++i) EXPECT_EQ(s.flag_tick[i], twin_.flag_tick[i]) << "bit " << i;
+        EXPECT_EQ(static_cast<std::uint32_t>(s.flags.marking_info), twin_.marking);
+        EXPECT_EQ(static_cast<std::uint32_t>(s.flags.startstop_info), twin_.startstop);
+        for (std::size_t i = 0; i < 32; ++i) EXPECT_EQ(s.flags.flag_tick[i], twin_.flag_tick[i]) << "bit " << i;
         EXPECT_EQ(card_.busy(), twin_.running);
         EXPECT_EQ(s.lists.current, twin_.current);
         EXPECT_EQ(s.lists.ended_unwritten, twin_.unwritten);

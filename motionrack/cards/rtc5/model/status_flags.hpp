@@ -1,0 +1,41 @@
+// The marking info, the start and stop info, and the limits of the corrected position that set flags of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <motionrack/cards/rtc5/model/block_buffers.hpp>
+#include <motionrack/cards/rtc5/model/state.hpp>
+
+namespace motionrack::rtc5 {
+
+class StatusFlags {
+  public:
+    /// Both are parts of the card's state.
+    StatusFlags(FlagsState& flags, FlyLimits& limits) : flags_(flags), limits_(limits) {}
+
+    /// Sets bits of the marking info; keeps the tick of those that were clear.
+    void raise(std::uint32_t bits, std::int64_t tick);
+    void raise_startstop(std::uint32_t bits) { flags_.startstop_info |= bits; }
+    /// Raises the flags of the corrected positions x and y of a block, from tick `first` on, with this extent.
+    void check(const BlockBuffers& b, const PlanExtent& extent, std::int64_t first);
+    void check_z(double z, std::int64_t tick);
+    /// True if a position is so far inside the field and its limits that it can set no flag. Axis: 0 X, 1 Y.
+    bool is_inside(double bits, std::size_t axis) const;
+
+    /// set_fly_limits, set_fly_limits_z
+    void set_limits(const Command& c);
+    /// clear_fly_overflow
+    void clear_limit_flags(std::int64_t mode);
+    /// if_fly_x_overflow and the like: clears the flags that it evaluates.
+    bool take_condition(const Command& c);
+    /// Returns the marking info and clears the bits that a reading clears.
+    std::uint32_t take_marking_info();
+    std::uint32_t startstop_info() const { return static_cast<std::uint32_t>(flags_.startstop_info); }
+    void clear_startstop_info() { flags_.startstop_info = 0; }
+
+  private:
+    FlagsState& flags_;
+    FlyLimits& limits_;
+};
+
+}  // namespace motionrack::rtc5
