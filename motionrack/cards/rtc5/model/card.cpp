@@ -149,7 +149,7 @@ void Card::count_line(std::size_t encoder, std::int64_t bit, int level, Instant 
         lines_.changed_at[encoder] = now.count();
         lines_.last_step[encoder] = step;
     }
-    const auto input = static_cast<std::uint32_t>(engine_.state().input[encoder]);
+    const auto input = static_cast<std::uint32_t>(engine_.state().encoders.input[encoder]);
     engine_.set_count(static_cast<int>(encoder), static_cast<std::int32_t>(input + static_cast<std::uint32_t>(step)));
 }
 

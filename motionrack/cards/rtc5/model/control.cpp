@@ -77,15 +77,6 @@ Result<void> Engine::set_rot_center(Point centre) {
     return {};
 }
 
-Result<void> Engine::simulate_encoder(int which) {
-    if (which < 0 || which > 3)
-        return fail(
-            ErrorKind::refused,
-            fmt::format("simulate_encoder: {} is not 0 (off), 1 (X), 2 (Y) or 3 (both); nothing was changed", which));
-    for (std::size_t e = 0; e < encoder_count; ++e) state_.encoders[e].simulated = which >> e & 1;
-    return {};
-}
-
 Result<void> Engine::set_ext_start_delay(std::int32_t delay, int encoder) {
     if (encoder < 0 || encoder >= encoder_count)
         return fail(ErrorKind::refused,
@@ -95,32 +86,8 @@ Result<void> Engine::set_ext_start_delay(std::int32_t delay, int encoder) {
     return {};
 }
 
-Result<void> Engine::set_encoder_speed(int encoder, double counts_ms, double smooth) {
-    MOTIONRACK_CHECK(check_parameter("set_encoder_speed", "EncoderNo", encoder, 0, 3));
-    if (!std::isfinite(counts_ms))
-        return fail(
-            ErrorKind::refused,
-            fmt::format("set_encoder_speed: Speed is {}, which is not a number; nothing was changed", counts_ms));
-    MOTIONRACK_CHECK(check_parameter("set_encoder_speed", "Smooth", smooth, 0, 1));
-    State& s = state_;
-    s.speed_watched = 1;
-    s.speed_encoder = encoder;
-    s.speed_target = std::clamp(counts_ms, 100.0, 16000.0);
-    s.speed_smooth = smooth;
-    for (BeltCounter& e : s.encoders) e.slow1 = e.slow2 = 0;
-    return {};
-}
-
-double Engine::encoder_speed() const {
-    const State& s = state_;
-    if (!s.speed_watched) return 0;
-    const double x = s.encoders[0].slow2, y = s.encoders[1].slow2;
-    if (s.speed_encoder >= 2) return std::sqrt(x * x + y * y);
-    return s.speed_encoder == 0 ? x : y;
-}
-
 void Engine::init_fly_2d(std::int32_t offset_x, std::int32_t offset_y) {
-    for (std::size_t e = 0; e < encoder_count; ++e) state_.encoders[e].zero = state_.encoders[e].travel;
+    for (std::size_t e = 0; e < encoder_count; ++e) encoders_.zero(e);
     state_.fly_2d_offset = {static_cast<double>(offset_x), static_cast<double>(offset_y)};
 }
 
@@ -138,11 +105,6 @@ std::uint32_t Engine::list_status() const {
     const Lists& l = state_.lists;
     const std::uint32_t busy = l.running ? list_status_bit("BUSY1") << (l.current < l.begin[1] ? 0 : 1) : 0;
     return static_cast<std::uint32_t>(l.loaded) | busy;
-}
-
-std::array<std::int32_t, 2> Engine::read_encoder(int pos) const {
-    const std::size_t at = pos == 0 ? 0 : 2;
-    return {static_cast<std::int32_t>(state_.stored[at]), static_cast<std::int32_t>(state_.stored[at + 1])};
 }
 
 std::int64_t Engine::multi_power() const {

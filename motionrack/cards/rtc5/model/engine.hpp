@@ -9,6 +9,7 @@
 #pragma once
 
 #include <memory>
+#include <motionrack/cards/rtc5/model/belt_encoders.hpp>
 #include <motionrack/cards/rtc5/model/block_buffers.hpp>
 #include <motionrack/cards/rtc5/model/connections.hpp>
 #include <motionrack/cards/rtc5/model/correction.hpp>
@@ -77,12 +78,14 @@ class Engine {
     Result<void> set_scale(int head, double scale, int at_once);
     Result<void> set_hi(int head, Point gain, Point offset);
     Result<void> set_rot_center(Point centre);
-    Result<void> simulate_encoder(int which);
-    void set_tracking_error(std::uint16_t x, std::uint16_t y) { state_.tracking_error = {x, y}; }
+    Result<void> simulate_encoder(int which) { return encoders_.simulate(which); }
+    void set_tracking_error(std::uint16_t x, std::uint16_t y) { encoders_.set_tracking_error(x, y); }
     void set_control_mode(std::uint32_t mode) { state_.control_mode = mode; }
     Result<void> set_ext_start_delay(std::int32_t delay, int encoder);
     void set_extstartpos(std::int64_t position) { state_.starts.position = position; }
-    Result<void> set_encoder_speed(int encoder, double counts_ms, double smooth);
+    Result<void> set_encoder_speed(int encoder, double counts_ms, double smooth) {
+        return encoders_.watch_speed(encoder, counts_ms, smooth);
+    }
     void load_fly_2d_table(std::shared_ptr<const FlyTable> table) { fly_table_ = std::move(table); }
     /// Copies the data that State does not contain from the card whose state was copied: tables and recorded samples.
     void copy_beside_state(const Engine& other);
@@ -112,7 +115,7 @@ class Engine {
     // ---- external inputs
     void external_start() { ++state_.starts.triggers; }
     void external_stop() { stop(startstop_bit("EXTERNAL_STOP")); }
-    void set_count(int encoder, std::int32_t counts) { state_.input[static_cast<std::size_t>(encoder)] = counts; }
+    void set_count(int encoder, std::int32_t counts) { encoders_.set_count(encoder, counts); }
     void receive(std::uint32_t word);
     /// Records a tick in which both lines of an encoder changed.
     void encoder_sequence_error(int encoder);
@@ -136,13 +139,13 @@ class Engine {
     std::uint32_t status() const;
     std::uint32_t list_status() const;
     std::int64_t list_position() const { return state_.lists.current; }
-    std::int32_t encoder(int number) const { return state_.encoders[static_cast<std::size_t>(number)].count(); }
+    std::int32_t encoder(int number) const { return encoders_.count(static_cast<std::size_t>(number)); }
     Result<std::int32_t> read_mcbsp(int location) const { return state_.mcbsp.read(location); }
     std::int32_t read_multi_mcbsp(int type) const { return state_.mcbsp.typed[static_cast<std::size_t>(type & 7)]; }
     /// Reads and clears by the rules of RULES.md.
     std::uint32_t get_marking_info() { return flags_.take_marking_info(); }
     /// Both counts of store_encoder, `pos` 0 or 1.
-    std::array<std::int32_t, 2> read_encoder(int pos) const;
+    std::array<std::int32_t, 2> read_encoder(int pos) const { return encoders_.stored(pos); }
     /// Value that set_multi_mcbsp_in puts on the port: that of type 3 (mode 0), or factor * value / 16384 (mode 1).
     std::int64_t multi_power() const;
     std::uint32_t get_startstop_info();
@@ -160,7 +163,7 @@ class Engine {
         return recorded_[static_cast<std::size_t>(i * state_.recording.channels + channel)];
     }
     /// Counts/ms after the filters; 0 while not watched.
-    double encoder_speed() const;
+    double encoder_speed() const { return encoders_.speed(); }
     /// x, y of head A in the last tick.
     const HeadOutput& output() const { return state_.output; }
     const State& state() const { return state_; }
@@ -213,7 +216,6 @@ class Engine {
     void be_kind(FlyKind kind);
     void settle_kind();
     void turn(FlyKind kind, double resolution);
-    void zero_encoder(std::size_t encoder);
     bool empty_cycle(std::initializer_list<std::size_t> encoders);
     void park(const Command& c);
     void leave_fly();
@@ -226,20 +228,15 @@ class Engine {
     void take_words();
     void take_word(std::uint32_t word);
     bool load_words(std::size_t n);
-    void load_counts(int encoder, std::size_t n);
-    void effective_counts(int encoder, std::size_t n);
     void mcbsp_values(std::size_t n);
     std::int64_t wait_ticks(std::int64_t limit, bool& over);
     bool met(std::int64_t before, std::int64_t present) const;
     bool met_at(std::size_t i) const;
     bool met_now() const;
     std::int64_t simple_wait(bool& over) const;
-    void filter_speed(std::size_t first, std::size_t n);
-    double effective(int encoder) const;
     Point mcbsp_now() const;
     std::int32_t axis_value(std::uint32_t word, bool y) const;
     void store_word();
-    void advance_encoders(std::int64_t n);
     void advance_words(std::int64_t n);
 
     // starts.cpp
@@ -289,6 +286,7 @@ class Engine {
     std::shared_ptr<const FlyTable> fly_table_;
     std::unique_ptr<BlockBuffers> buffers_ = std::make_unique<BlockBuffers>();
     StatusFlags flags_{state_.flags, state_.limits};
+    BeltEncoders encoders_{state_.encoders, state_.tick, connections_, *buffers_};
     LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
     WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
     bool until_rest_ = false;  // the run ends when the card is idle

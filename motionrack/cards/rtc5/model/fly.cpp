@@ -24,9 +24,7 @@ void Engine::pipeline_command(const Command& c) {
             s.rot_center = {c.p[0], c.p[1]};
             return;
         case Op::store_encoder:
-            for (std::size_t e = 0; e < encoder_count; ++e)
-                s.stored[static_cast<std::size_t>(whole(0)) * 2 + e] = s.encoders[e].count();
-            return;
+            return encoders_.store(static_cast<std::size_t>(whole(0)));
         case Op::wait_for_encoder:
         case Op::wait_for_encoder_mode:
         case Op::wait_for_encoder_in_range:
@@ -220,14 +218,6 @@ void Engine::end_online() {
     m.online_x = m.online_y = m.online_rot = m.online_matrix = 0;
 }
 
-void Engine::zero_encoder(std::size_t encoder) {
-    BeltCounter& e = state_.encoders[encoder];
-    if (state_.control_mode & control_reset_at_start)
-        e.reset_at_start = 1;
-    else
-        e.zero = e.travel;
-}
-
 /// Zeroes the encoders. Returns true if, with a tracking error, one tick passes first and the command is repeated.
 bool Engine::empty_cycle(std::initializer_list<std::size_t> encoders) {
     Lists& l = state_.lists;
@@ -237,8 +227,11 @@ bool Engine::empty_cycle(std::initializer_list<std::size_t> encoders) {
     }
     bool needed = false;
     for (const std::size_t e : encoders) {
-        zero_encoder(e);
-        needed = needed || state_.tracking_error[e] != 0;
+        if (state_.control_mode & control_reset_at_start)
+            encoders_.zero_at_start(e);
+        else
+            encoders_.zero(e);
+        needed = needed || encoders_.tracking_error(e) != 0;
     }
     if (!needed) return false;
     l.again = 1;
@@ -256,10 +249,11 @@ Point Engine::fly_of(Point p, bool backwards) const {
             return p;
         case FlyKind::encoder:
         case FlyKind::encoder_rot:
-            value[0] = effective(0), value[1] = effective(1);
+            value[0] = encoders_.effective(0), value[1] = encoders_.effective(1);
             break;
         case FlyKind::encoder_2d: {
-            const double a = effective(0) + state_.fly_2d_offset.x, b = effective(1) + state_.fly_2d_offset.y;
+            const double a = encoders_.effective(0) + state_.fly_2d_offset.x,
+                         b = encoders_.effective(1) + state_.fly_2d_offset.y;
             const FlyTable::Shift shift = fly_table_ != nullptr ? fly_table_->at(a, b) : FlyTable::Shift{};
             value[0] = a + shift.x, value[1] = b + shift.y;
             break;

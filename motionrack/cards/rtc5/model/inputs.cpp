@@ -4,45 +4,11 @@
 
 namespace motionrack::rtc5 {
 
-namespace {
-
-std::int32_t wrapped(std::int64_t v) {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(v));
-}
-
-}  // namespace
-
 void Engine::sample_inputs() {
-    for (int number = 0; number < encoder_count; ++number) {
-        BeltCounter& e = state_.encoders[static_cast<std::size_t>(number)];
-        e.previous = e.count();
-        std::int32_t raw = wrapped(state_.input[static_cast<std::size_t>(number)]);
-        if (connections_.inputs != nullptr) connections_.inputs->counts(number, state_.tick, {&raw, 1});
-        e.travel += e.simulated ? simulated_counts : wrapped(raw - e.raw);
-        e.raw = raw;
-    }
-    if (state_.speed_watched) {
-        for (std::size_t e = 0; e < encoder_count; ++e) buffers_->counts[e][0] = state_.encoders[e].count();
-        filter_speed(0, 1);
-    }
+    encoders_.sample();
     state_.mcbsp.previous = state_.mcbsp.word;
     take_words();
     store_word();
-}
-
-/// Velocities of ticks first .. n-1, whose counts are in the scratch.
-void Engine::filter_speed(std::size_t first, std::size_t n) {
-    const double through = 1 - state_.speed_smooth;
-    for (std::size_t number = 0; number < encoder_count; ++number) {
-        BeltCounter& e = state_.encoders[number];
-        const auto& counts = buffers_->counts[number];
-        for (std::size_t i = first; i < n; ++i) {
-            const std::int64_t before = i == 0 ? e.previous : counts[i - 1];
-            const double speed = 100.0 * wrapped(counts[i] - before);
-            e.slow1 += (speed - e.slow1) * through;
-            e.slow2 += (e.slow1 - e.slow2) * through;
-        }
-    }
 }
 
 void Engine::receive(std::uint32_t word) {
@@ -98,49 +64,6 @@ void Engine::store_word() {
 
 bool Engine::load_words(std::size_t n) {
     return connections_.inputs != nullptr && connections_.inputs->words(state_.tick, {buffers_->words.data(), n});
-}
-
-/// Encoder counts of n ticks from now on.
-void Engine::load_counts(int encoder, std::size_t n) {
-    const BeltCounter& e = state_.encoders[static_cast<std::size_t>(encoder)];
-    std::int32_t* const out = buffers_->counts[encoder].data();
-    const auto begin = static_cast<std::uint32_t>(e.count());
-    if (e.simulated) {
-        for (std::size_t i = 0; i < n; ++i)
-            out[i] = static_cast<std::int32_t>(begin + static_cast<std::uint32_t>(simulated_counts) *
-                                                           static_cast<std::uint32_t>(i));
-    } else if (connections_.inputs != nullptr && n > 1) {
-        std::int32_t* const raw = buffers_->raw[encoder].data();
-        connections_.inputs->counts(encoder, state_.tick, {raw, n});
-        for (std::size_t i = 0; i < n; ++i)
-            out[i] = static_cast<std::int32_t>(
-                begin + (static_cast<std::uint32_t>(raw[i]) - static_cast<std::uint32_t>(raw[0])));
-    } else {
-        std::fill_n(out, n, static_cast<std::int32_t>(begin));
-    }
-}
-
-/// Counts used by the correction, advanced by the tracking error.
-void Engine::effective_counts(int encoder, std::size_t n) {
-    load_counts(encoder, n);
-    const std::int32_t* const counts = buffers_->counts[encoder].data();
-    double* const out = buffers_->effective[encoder].data();
-    const double ahead = static_cast<double>(state_.tracking_error[static_cast<std::size_t>(encoder)]);
-    if (ahead == 0) {
-        for (std::size_t i = 0; i < n; ++i) out[i] = counts[i];
-        return;
-    }
-    out[0] = effective(encoder);
-    for (std::size_t i = 1; i < n; ++i)
-        out[i] = counts[i] + static_cast<double>(static_cast<std::int32_t>(static_cast<std::uint32_t>(counts[i]) -
-                                                                           static_cast<std::uint32_t>(counts[i - 1]))) *
-                                 ahead;
-}
-
-double Engine::effective(int encoder) const {
-    const BeltCounter& e = state_.encoders[static_cast<std::size_t>(encoder)];
-    return e.count() + static_cast<double>(wrapped(e.count() - e.previous)) *
-                           static_cast<double>(state_.tracking_error[static_cast<std::size_t>(encoder)]);
 }
 
 Point Engine::mcbsp_now() const {
@@ -199,7 +122,7 @@ bool Engine::met_at(std::size_t i) const {
 bool Engine::met_now() const {
     const Activity& a = state_.activity;
     if (a.kind == ActivityKind::wait_encoder) {
-        const BeltCounter& e = state_.encoders[static_cast<std::size_t>(a.value[1])];
+        const BeltCounter& e = encoders_.counter(static_cast<std::size_t>(a.value[1]));
         return met(e.previous, e.count());
     }
     if (a.kind == ActivityKind::wait_range) {
@@ -217,7 +140,7 @@ std::int64_t Engine::wait_ticks(std::int64_t limit, bool& over) {
     if (state_.activity.kind == ActivityKind::wait_mcbsp) {
         if (!load_words(n)) std::fill_n(buffers_->words.begin(), n, static_cast<std::uint32_t>(state_.mcbsp.word));
     } else {
-        for (int e = 0; e < encoder_count; ++e) load_counts(e, n);
+        for (std::size_t e = 0; e < encoder_count; ++e) encoders_.load_counts(e, n);
     }
     for (std::size_t i = 0; i < n; ++i) {
         if (!met_at(i)) continue;
@@ -235,8 +158,8 @@ std::int64_t Engine::simple_wait(bool& over) const {
     if (over) return 1;
     if (a.kind == ActivityKind::wait_mcbsp) return endless;
     const bool one = a.kind == ActivityKind::wait_encoder;
-    if (!one) return state_.encoders[0].simulated || state_.encoders[1].simulated ? -1 : endless;
-    const BeltCounter& e = state_.encoders[static_cast<std::size_t>(a.value[1])];
+    if (!one) return encoders_.counter(0).simulated || encoders_.counter(1).simulated ? -1 : endless;
+    const BeltCounter& e = encoders_.counter(static_cast<std::size_t>(a.value[1]));
     if (!e.simulated) return endless;
     const std::int64_t value = a.value[0], mode = a.value[2], count = e.count();
     const auto ticks_for = [](std::int64_t counts) { return (counts + simulated_counts - 1) / simulated_counts; };
@@ -249,24 +172,6 @@ std::int64_t Engine::simple_wait(bool& over) const {
     const std::int64_t ticks = ticks_for(mode > 0 ? value - count : half - count),
                        then = wrapped(count + ticks * simulated_counts);
     return met(then, then) ? 1 + ticks : -1;
-}
-
-/// Samples the inputs from this tick to the last of n.
-void Engine::advance_encoders(std::int64_t n) {
-    if (n == 1) return;
-    if (state_.speed_watched) {
-        for (int e = 0; e < encoder_count; ++e) load_counts(e, static_cast<std::size_t>(n));
-        filter_speed(1, static_cast<std::size_t>(n));
-    }
-    for (int number = 0; number < encoder_count; ++number) {
-        BeltCounter& e = state_.encoders[static_cast<std::size_t>(number)];
-        std::int32_t raw[2] = {wrapped(e.raw), wrapped(e.raw)};
-        if (connections_.inputs != nullptr) connections_.inputs->counts(number, state_.tick + n - 2, raw);
-        e.travel += e.simulated ? simulated_counts * (n - 2) : wrapped(raw[0] - e.raw);
-        e.previous = e.count();
-        e.travel += e.simulated ? simulated_counts : wrapped(std::int64_t{raw[1]} - raw[0]);
-        e.raw = raw[1];
-    }
 }
 
 void Engine::advance_words(std::int64_t n) {

@@ -40,8 +40,8 @@ void Engine::apply_fly(std::size_t n) {
     const Fly& f = state_.fly;
     const bool turns = f.kind == FlyKind::encoder_rot || f.kind == FlyKind::mcbsp_rot;
     if (f.kind == FlyKind::encoder || f.kind == FlyKind::encoder_2d || f.kind == FlyKind::encoder_rot) {
-        if (f.x || turns || f.kind == FlyKind::encoder_2d) effective_counts(0, n);
-        if (f.y || f.kind == FlyKind::encoder_2d) effective_counts(1, n);
+        if (f.x || turns || f.kind == FlyKind::encoder_2d) encoders_.load_effective(0, n);
+        if (f.y || f.kind == FlyKind::encoder_2d) encoders_.load_effective(1, n);
     } else {
         mcbsp_values(n);
     }
@@ -73,8 +73,8 @@ void Engine::check_z(std::size_t n) {
     const Fly& f = state_.fly;
     const bool multi = f.kind == FlyKind::multi;
     if (!f.z && !multi) return;
-    const auto encoder = static_cast<int>(f.z_encoder);
-    if (f.z) effective_counts(encoder, n);
+    const auto encoder = static_cast<std::size_t>(f.z_encoder);
+    if (f.z) encoders_.load_effective(encoder, n);
     double at_type2 = static_cast<double>(state_.mcbsp.typed[2]);
     const bool many = multi && n > 1 && load_words(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -90,7 +90,7 @@ void Engine::check_z(std::size_t n) {
 double Engine::z_now() const {
     const Fly& f = state_.fly;
     if (f.kind == FlyKind::multi) return state_.z + static_cast<double>(state_.mcbsp.typed[2]);
-    return f.z ? state_.z + f.scale_z * effective(static_cast<int>(f.z_encoder)) : state_.z;
+    return f.z ? state_.z + f.scale_z * encoders_.effective(static_cast<std::size_t>(f.z_encoder)) : state_.z;
 }
 
 const Table* Engine::table(std::int64_t number) const {
@@ -145,7 +145,7 @@ std::optional<PlanExtent> Engine::steady_extent(const Activity& a, std::int64_t 
     if ((!encoders && f.kind != FlyKind::mcbsp) || f.z || a.kind == ActivityKind::arc || !state_.global.neutral ||
         connections_.inputs != nullptr)
         return std::nullopt;
-    for (const BeltCounter& e : state_.encoders)
+    for (const BeltCounter& e : state_.encoders.counters)
         if (encoders && e.simulated && e.count() + simulated_counts * std::min<std::int64_t>(n, 1 << 29) > 2147483647)
             return std::nullopt;
     if (n > 1 << 28) return std::nullopt;
@@ -153,10 +153,10 @@ std::optional<PlanExtent> Engine::steady_extent(const Activity& a, std::int64_t 
     const Point words = mcbsp_now();
     const auto value = [&](std::size_t axis, std::int64_t i) {
         if (!encoders) return axis == 0 ? words.x : words.y;
-        const BeltCounter& e = state_.encoders[axis];
-        if (i == 0) return effective(static_cast<int>(axis));
+        const BeltCounter& e = encoders_.counter(axis);
+        if (i == 0) return encoders_.effective(axis);
         const double each = e.simulated ? simulated_counts : 0;
-        return e.count() + each * static_cast<double>(i) + each * static_cast<double>(state_.tracking_error[axis]);
+        return e.count() + each * static_cast<double>(i) + each * static_cast<double>(encoders_.tracking_error(axis));
     };
     PlanExtent out;
     for (const std::int64_t i : {std::int64_t{0}, std::min<std::int64_t>(1, n - 1), n - 1}) {

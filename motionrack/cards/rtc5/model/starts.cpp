@@ -17,7 +17,7 @@ void Engine::take_move_starts() {
     s.triggers = 0;
     for (std::int64_t i = 0; i < triggers; ++i)
         enqueue(static_cast<std::int32_t>(s.delay), static_cast<int>(s.encoder));
-    while (s.waiting > 0 && due(s.queue[0], state_.encoders[static_cast<std::size_t>(s.queue[0].encoder)].travel)) {
+    while (s.waiting > 0 && due(s.queue[0], encoders_.counter(static_cast<std::size_t>(s.queue[0].encoder)).travel)) {
         const Start start = s.queue[0];
         std::copy(s.queue.begin() + 1, s.queue.end(), s.queue.begin());
         s.queue.back() = {};
@@ -35,7 +35,7 @@ void Engine::enqueue(std::int32_t delay, int encoder) {
         flags_.raise_startstop(startstop_bit("START_LOST"));
         return report_start(StartFate::too_many);
     }
-    std::int64_t from = state_.encoders[static_cast<std::size_t>(encoder)].travel;
+    std::int64_t from = encoders_.counter(static_cast<std::size_t>(encoder)).travel;
     if (state_.control_mode & control_equidistant) {
         const Start* const before = s.waiting > 0 ? &s.queue[static_cast<std::size_t>(s.waiting - 1)] : nullptr;
         if (before != nullptr && before->encoder == encoder)
@@ -49,17 +49,14 @@ void Engine::enqueue(std::int32_t delay, int encoder) {
 void Engine::begin_start() {
     Lists& l = state_.lists;
     Starts& s = state_.starts;
-    for (std::size_t e = 0; e < encoder_count; ++e) s.last[e] = state_.encoders[e].travel;
+    for (std::size_t e = 0; e < encoder_count; ++e) s.last[e] = encoders_.counter(e).travel;
     s.has_last = 1;
     if (l.running || l.moving_alone) {
         flags_.raise(marking_bit("TRIGGER_ERROR"), state_.tick);
         flags_.raise_startstop(startstop_bit("START_LOST"));
         return report_start(StartFate::busy);
     }
-    for (BeltCounter& e : state_.encoders) {
-        if (e.reset_at_start) e.zero = e.travel;
-        e.reset_at_start = 0;
-    }
+    encoders_.take_start();
     l.running = 1;
     l.depth = 0;
     l.next = l.current = s.position;
@@ -74,14 +71,14 @@ void Engine::report_start(StartFate fate) {
 /// Ticks from the present one to that of the first waiting start, at most `limit`.
 std::int64_t Engine::ticks_to_start(std::int64_t limit) {
     const Start& start = state_.starts.queue[0];
-    const BeltCounter& e = state_.encoders[static_cast<std::size_t>(start.encoder)];
+    const BeltCounter& e = encoders_.counter(static_cast<std::size_t>(start.encoder));
     if (e.simulated) {
         if (start.delay < 0) return limit;
         return std::clamp<std::int64_t>((start.target - e.travel + simulated_counts - 1) / simulated_counts, 1, limit);
     }
     if (connections_.inputs == nullptr) return limit;
     if (!not_due_.holds(start, state_.tick, e.travel)) {
-        load_counts(static_cast<int>(start.encoder), block);
+        encoders_.load_counts(static_cast<std::size_t>(start.encoder), block);
         not_due_.update(start, state_.tick, e.travel, buffers_->counts[start.encoder]);
     }
     return std::min(limit, not_due_.until() - state_.tick);

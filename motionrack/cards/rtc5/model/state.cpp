@@ -3,6 +3,13 @@
 
 namespace motionrack::rtc5 {
 
+void EncodersState::reset() {
+    EncodersState fresh;
+    fresh.input = input;
+    for (std::size_t e = 0; e < encoder_count; ++e) fresh.counters[e].raw = counters[e].raw;
+    *this = fresh;
+}
+
 void McBsp::reset() {
     McBsp fresh;
     fresh.word = word, fresh.previous = previous, fresh.received = received;
@@ -25,10 +32,8 @@ void Lists::reset(const Settings& settings) {
 void State::reset(const Settings& settings) {
     State fresh;
     fresh.tick = tick, fresh.sampled = sampled;
-    fresh.input = input;
-    for (std::size_t e = 0; e < encoder_count; ++e) fresh.encoders[e].raw = encoders[e].raw;
-    mcbsp.reset(), laser.reset();
-    fresh.mcbsp = mcbsp, fresh.laser = laser;
+    encoders.reset(), mcbsp.reset(), laser.reset();
+    fresh.encoders = encoders, fresh.mcbsp = mcbsp, fresh.laser = laser;
     fresh.lists.reset(settings);
     *this = fresh;
 }

@@ -80,6 +80,18 @@ struct BeltCounter {
     }
 };
 
+struct EncodersState {
+    std::array<BeltCounter, encoder_count> counters{};
+    std::array<std::int64_t, encoder_count> input{};  ///< counts of the input lines
+    std::array<std::int64_t, 4> stored{};             ///< Encoder0, Encoder1 of Pos 0; of Pos 1
+    std::array<std::int64_t, encoder_count> tracking_error{};
+    std::int64_t speed_watched = 0, speed_encoder = 0;
+    double speed_target = 0, speed_smooth = 0;
+
+    /// Keeps the input lines.
+    void reset();
+};
+
 enum class FlyKind : std::int64_t { off, encoder, encoder_2d, encoder_rot, mcbsp, mcbsp_rot, multi };
 
 struct Fly {
@@ -218,12 +230,7 @@ struct State {
     Lists lists;
     double jump_speed = 1000, mark_speed = 1000;
     Delays delays;
-    std::array<BeltCounter, encoder_count> encoders{};
-    std::array<std::int64_t, encoder_count> input{};  ///< counts of the input lines
-    std::array<std::int64_t, 4> stored{};             ///< Encoder0, Encoder1 of Pos 0; of Pos 1
-    std::array<std::int64_t, encoder_count> tracking_error{};
-    std::int64_t speed_watched = 0, speed_encoder = 0;
-    double speed_target = 0, speed_smooth = 0;
+    EncodersState encoders;
     Fly fly, paused_fly;
     Point park_from, rot_center, fly_2d_offset;
     std::int64_t parked = 0;
@@ -244,7 +251,7 @@ struct State {
     HeadOutput output;
     std::uint64_t memory_hash = 0;  ///< hash of the lists' memory: every command at its position; 0: empty
 
-    /// Keeps the time, the input lines, and what its parts keep.
+    /// Keeps the time and what its parts keep.
     void reset(const Settings& settings);
 };
 

@@ -314,12 +314,12 @@ class Pair {
             EXPECT_EQ(s.output.a[1], last_.y);
         }
         for (std::size_t e = 0; e < 2; ++e) {
-            EXPECT_EQ(s.encoders[e].count(), twin_.encoders[e].count()) << e;
-            EXPECT_EQ(s.encoders[e].travel, twin_.encoders[e].travel) << e;
-            EXPECT_EQ(s.encoders[e].slow2, twin_.encoders[e].slow2) << e;
+            EXPECT_EQ(s.encoders.counters[e].count(), twin_.encoders[e].count()) << e;
+            EXPECT_EQ(s.encoders.counters[e].travel, twin_.encoders[e].travel) << e;
+            EXPECT_EQ(s.encoders.counters[e].slow2, twin_.encoders[e].slow2) << e;
         }
         for (std::size_t i = 0; i < 4; ++i) {
-            EXPECT_EQ(s.stored[i], twin_.stored[i]) << i;
+            EXPECT_EQ(s.encoders.stored[i], twin_.stored[i]) << i;
             EXPECT_EQ(s.mcbsp.memory[i], twin_.locations[i].value_or(0)) << i;
             EXPECT_EQ(s.mcbsp.filled >> i & 1, twin_.locations[i].has_value()) << "location " << i;
         }

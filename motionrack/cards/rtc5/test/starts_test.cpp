@@ -83,7 +83,7 @@ TEST(Rtc5Starts, APendingStartIsDueAtItsCountAfterARestore) {
     station.rig.card.external_start();
     station.rig.run(10);
     State further = station.rig.card.state();
-    further.encoders[0].travel += 20;  // as after ten ticks of the simulated encoder
+    further.encoders.counters[0].travel += 20;  // as after ten ticks of the simulated encoder
     ASSERT_EQ(station.begins_within(200), -1) << "20 counts are missing";
     station.rig.card.mutable_state() = further;
     EXPECT_EQ(station.begins_within(200), 100);

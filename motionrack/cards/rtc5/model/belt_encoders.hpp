@@ -1,0 +1,66 @@
+// The encoders of the conveyor: their counts tick by tick, in blocks and over intervals, real or simulated.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <motionrack/cards/rtc5/model/block_buffers.hpp>
+#include <motionrack/cards/rtc5/model/connections.hpp>
+#include <motionrack/cards/rtc5/model/state.hpp>
+
+namespace motionrack::rtc5 {
+
+/// The lower 32 bits as a signed number.
+inline std::int32_t wrapped(std::int64_t v) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(v));
+}
+
+class BeltEncoders {
+  public:
+    /// `state` and `tick`: parts of the card's state.
+    BeltEncoders(EncodersState& state, const std::int64_t& tick, const Connections& connections, BlockBuffers& buffers)
+        : state_(state), tick_(tick), connections_(connections), buffers_(buffers) {}
+
+    const BeltCounter& counter(std::size_t encoder) const { return state_.counters[encoder]; }
+    std::int32_t count(std::size_t encoder) const { return state_.counters[encoder].count(); }
+    /// Count of the present tick that the correction uses: advanced by the tracking error.
+    double effective(std::size_t encoder) const;
+    std::int64_t tracking_error(std::size_t encoder) const { return state_.tracking_error[encoder]; }
+
+    // ---- running
+    /// Samples the present tick.
+    void sample();
+    /// Samples from this tick to the last of n.
+    void advance(std::int64_t n);
+    /// Counts of n ticks from now on, to the buffer of counts.
+    void load_counts(std::size_t encoder, std::size_t n);
+    /// The same as the correction uses them, to the buffer of effective values.
+    void load_effective(std::size_t encoder, std::size_t n);
+    void zero(std::size_t encoder) { state_.counters[encoder].zero = state_.counters[encoder].travel; }
+    void zero_at_start(std::size_t encoder) { state_.counters[encoder].reset_at_start = 1; }
+    /// An external start begins a list: zeroes the encoders that wait for it.
+    void take_start();
+
+    // ---- commands
+    void set_count(int encoder, std::int32_t counts) { state_.input[static_cast<std::size_t>(encoder)] = counts; }
+    void set_tracking_error(std::uint16_t x, std::uint16_t y) { state_.tracking_error = {x, y}; }
+    Result<void> simulate(int which);
+    /// store_encoder
+    void store(std::size_t pos);
+    std::array<std::int32_t, 2> stored(int pos) const;
+    /// set_encoder_speed
+    Result<void> watch_speed(int encoder, double counts_ms, double smooth);
+    bool speed_watched() const { return state_.speed_watched != 0; }
+    /// Counts/ms after the filters; 0 while not watched.
+    double speed() const;
+
+  private:
+    void filter_speed(std::size_t first, std::size_t n);
+
+    EncodersState& state_;
+    const std::int64_t& tick_;
+    const Connections& connections_;
+    BlockBuffers& buffers_;
+};
+
+}  // namespace motionrack::rtc5
