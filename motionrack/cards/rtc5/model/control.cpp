@@ -107,12 +107,6 @@ std::uint32_t Engine::list_status() const {
     return static_cast<std::uint32_t>(l.loaded) | busy;
 }
 
-std::int64_t Engine::multi_power() const {
-    const McBsp& m = state_.mcbsp;
-    if (m.power_mode == 0) return m.typed[3];
-    return m.power_factor * m.typed[3] / 16384;
-}
-
 std::uint32_t Engine::startstop_info() const {
     return flags_.startstop_info() | startstop_bit("NO_STOP_SIGNAL") |
            (state_.laser.disabled ? 0 : startstop_bit("LASER_ENABLED"));

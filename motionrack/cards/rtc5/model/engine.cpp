@@ -157,7 +157,7 @@ std::size_t Engine::fill(std::size_t n, std::size_t capacity) {
 bool Engine::skip(std::int64_t limit) {
     State& s = state_;
     if (!s.lists.paused) next_step(0);
-    if (encoders_.speed_watched() || s.mcbsp.multi || samples_now() || wobbel_.active()) return false;
+    if (encoders_.speed_watched() || mcbsp_.words_have_types() || samples_now() || wobbel_.active()) return false;
     if (s.starts.asked_count > 0) limit = 1;
     Activity& a = s.activity;
     const bool still = s.lists.paused || a.kind == ActivityKind::none || a.kind == ActivityKind::hold;
@@ -193,7 +193,7 @@ bool Engine::skip(std::int64_t limit) {
 /// Advances the state by n ticks.
 void Engine::advance(std::int64_t n) {
     encoders_.advance(n);
-    advance_words(n);
+    mcbsp_.advance(n);
     state_.tick += n;
     state_.sampled = state_.tick - 1;
 }

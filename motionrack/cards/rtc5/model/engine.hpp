@@ -16,6 +16,7 @@
 #include <motionrack/cards/rtc5/model/fly_table.hpp>
 #include <motionrack/cards/rtc5/model/kernels.hpp>
 #include <motionrack/cards/rtc5/model/laser_control.hpp>
+#include <motionrack/cards/rtc5/model/mcbsp_receiver.hpp>
 #include <motionrack/cards/rtc5/model/not_due.hpp>
 #include <motionrack/cards/rtc5/model/settings.hpp>
 #include <motionrack/cards/rtc5/model/state.hpp>
@@ -103,7 +104,7 @@ class Engine {
     void set_mcbsp_matrix();
     Result<void> apply_mcbsp(int head, int at_once);
     /// The present word, also copied to location 0. Errors: refused if none has been received.
-    Result<std::int32_t> get_mcbsp();
+    Result<std::int32_t> get_mcbsp() { return mcbsp_.store_now(); }
     /// Signals that are sent from the next tick on, one per tick, in turn; none: sending ends. At most 8.
     Result<void> set_mcbsp_out(std::span<const std::uint32_t> signals);
     /// Disabling switches the laser off and blocks it until it is enabled again.
@@ -116,7 +117,7 @@ class Engine {
     void external_start() { ++state_.starts.triggers; }
     void external_stop() { stop(startstop_bit("EXTERNAL_STOP")); }
     void set_count(int encoder, std::int32_t counts) { encoders_.set_count(encoder, counts); }
-    void receive(std::uint32_t word);
+    void receive(std::uint32_t word) { mcbsp_.receive(word); }
     /// Records a tick in which both lines of an encoder changed.
     void encoder_sequence_error(int encoder);
     /// Sets the source of inputs; nullptr: set_count and receive.
@@ -140,14 +141,14 @@ class Engine {
     std::uint32_t list_status() const;
     std::int64_t list_position() const { return state_.lists.current; }
     std::int32_t encoder(int number) const { return encoders_.count(static_cast<std::size_t>(number)); }
-    Result<std::int32_t> read_mcbsp(int location) const { return state_.mcbsp.read(location); }
-    std::int32_t read_multi_mcbsp(int type) const { return state_.mcbsp.typed[static_cast<std::size_t>(type & 7)]; }
+    Result<std::int32_t> read_mcbsp(int location) const { return mcbsp_.read(location); }
+    std::int32_t read_multi_mcbsp(int type) const { return mcbsp_.typed(type); }
     /// Reads and clears by the rules of RULES.md.
     std::uint32_t get_marking_info() { return flags_.take_marking_info(); }
     /// Both counts of store_encoder, `pos` 0 or 1.
     std::array<std::int32_t, 2> read_encoder(int pos) const { return encoders_.stored(pos); }
     /// Value that set_multi_mcbsp_in puts on the port: that of type 3 (mode 0), or factor * value / 16384 (mode 1).
-    std::int64_t multi_power() const;
+    std::int64_t multi_power() const { return mcbsp_.power(); }
     std::uint32_t get_startstop_info();
     /// Correction table 1 .. 4; nullptr: 1:1.
     const Table* table(std::int64_t number) const;
@@ -210,7 +211,6 @@ class Engine {
     bool fly_command(const Command& c);
     void set_fly(const Command& c);
     void mcbsp_in(int mode, double scale);
-    void end_online();
     void control_command(const Command& c);
     void transform_command(const Command& c);
     void be_kind(FlyKind kind);
@@ -225,19 +225,11 @@ class Engine {
 
     // inputs.cpp
     void sample_inputs();
-    void take_words();
-    void take_word(std::uint32_t word);
-    bool load_words(std::size_t n);
-    void mcbsp_values(std::size_t n);
     std::int64_t wait_ticks(std::int64_t limit, bool& over);
     bool met(std::int64_t before, std::int64_t present) const;
     bool met_at(std::size_t i) const;
     bool met_now() const;
     std::int64_t simple_wait(bool& over) const;
-    Point mcbsp_now() const;
-    std::int32_t axis_value(std::uint32_t word, bool y) const;
-    void store_word();
-    void advance_words(std::int64_t n);
 
     // starts.cpp
     void take_move_starts();
@@ -287,6 +279,7 @@ class Engine {
     std::unique_ptr<BlockBuffers> buffers_ = std::make_unique<BlockBuffers>();
     StatusFlags flags_{state_.flags, state_.limits};
     BeltEncoders encoders_{state_.encoders, state_.tick, connections_, *buffers_};
+    McBspReceiver mcbsp_{state_.mcbsp, state_.fly, state_.tick, connections_, *buffers_};
     LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
     WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
     bool until_rest_ = false;  // the run ends when the card is idle

@@ -116,9 +116,7 @@ bool Engine::fly_command(const Command& c) {
         case Op::set_fly_x_pos:
         case Op::set_fly_y_pos:
         case Op::set_fly_rot_pos:
-            state_.mcbsp.to_zero = 1;
-            state_.mcbsp.in_mode = state_.mcbsp.multi = 0;
-            end_online();
+            mcbsp_.begin_correction();
             break;
         case Op::activate_fly_xy:
         case Op::activate_fly_2d:
@@ -201,21 +199,11 @@ void Engine::turn(FlyKind kind, double resolution) {
 }
 
 void Engine::mcbsp_in(int mode, double scale) {
-    McBsp& m = state_.mcbsp;
-    m.multi = 0;
-    m.in_mode = mode;
-    if (mode != 0) m.to_zero = 1;
-    end_online();
+    mcbsp_.begin_axis_correction(mode);
     state_.fly = Fly{FlyKind::mcbsp, mode & 1, mode >> 1 & 1};
     state_.fly.scale_x = state_.fly.scale_y = scale;
     if (scale == 0) state_.fly = Fly{};
     settle_kind();
-}
-
-/// Positioning and correction by McBSP exclude each other.
-void Engine::end_online() {
-    McBsp& m = state_.mcbsp;
-    m.online_x = m.online_y = m.online_rot = m.online_matrix = 0;
 }
 
 /// Zeroes the encoders. Returns true if, with a tracking error, one tick passes first and the command is repeated.
@@ -259,7 +247,7 @@ Point Engine::fly_of(Point p, bool backwards) const {
             break;
         }
         default: {
-            const Point now = mcbsp_now();
+            const Point now = mcbsp_.now();
             value[0] = now.x, value[1] = now.y;
         }
     }

@@ -43,7 +43,7 @@ void Engine::apply_fly(std::size_t n) {
         if (f.x || turns || f.kind == FlyKind::encoder_2d) encoders_.load_effective(0, n);
         if (f.y || f.kind == FlyKind::encoder_2d) encoders_.load_effective(1, n);
     } else {
-        mcbsp_values(n);
+        mcbsp_.load_values(n);
     }
     if (turns) {
         const Point centre = state_.rot_center;
@@ -75,8 +75,8 @@ void Engine::check_z(std::size_t n) {
     if (!f.z && !multi) return;
     const auto encoder = static_cast<std::size_t>(f.z_encoder);
     if (f.z) encoders_.load_effective(encoder, n);
-    double at_type2 = static_cast<double>(state_.mcbsp.typed[2]);
-    const bool many = multi && n > 1 && load_words(n);
+    double at_type2 = static_cast<double>(mcbsp_.typed(2));
+    const bool many = multi && n > 1 && mcbsp_.load_words(n);
     for (std::size_t i = 0; i < n; ++i) {
         if (many && i > 0 && (buffers_->words[i] & 7) == 2)
             at_type2 = static_cast<double>(static_cast<std::int32_t>(buffers_->words[i]) >> 3);
@@ -89,7 +89,7 @@ void Engine::check_z(std::size_t n) {
 /// Z in the last sampled tick.
 double Engine::z_now() const {
     const Fly& f = state_.fly;
-    if (f.kind == FlyKind::multi) return state_.z + static_cast<double>(state_.mcbsp.typed[2]);
+    if (f.kind == FlyKind::multi) return state_.z + static_cast<double>(mcbsp_.typed(2));
     return f.z ? state_.z + f.scale_z * encoders_.effective(static_cast<std::size_t>(f.z_encoder)) : state_.z;
 }
 
@@ -150,7 +150,7 @@ std::optional<PlanExtent> Engine::steady_extent(const Activity& a, std::int64_t 
             return std::nullopt;
     if (n > 1 << 28) return std::nullopt;
     const bool moves = a.kind == ActivityKind::line && !state_.lists.paused;
-    const Point words = mcbsp_now();
+    const Point words = mcbsp_.now();
     const auto value = [&](std::size_t axis, std::int64_t i) {
         if (!encoders) return axis == 0 ? words.x : words.y;
         const BeltCounter& e = encoders_.counter(axis);

@@ -97,14 +97,7 @@ Result<void> Engine::set_mcbsp_in(int mode, double scale) {
 Result<void> Engine::set_multi_mcbsp_in(int port, std::int64_t factor, int mode) {
     MOTIONRACK_CHECK(list_command(Op::set_multi_mcbsp_in_list,
                                   {static_cast<double>(port), static_cast<double>(factor), static_cast<double>(mode)}));
-    McBsp& m = state_.mcbsp;
-    m.power_port = port, m.power_factor = factor, m.power_mode = mode;
-    end_online();
-    m.multi = 1;
-    m.in_mode = 0;
-    m.round = 0;
-    m.typed = {};
-    m.memory = {}, m.filled = 15;
+    mcbsp_.begin_typed_words(port, factor, mode);
     state_.fly = Fly{FlyKind::multi, 1, 1};
     state_.fly.scale_x = state_.fly.scale_y = 1;
     return {};
@@ -113,14 +106,9 @@ Result<void> Engine::set_multi_mcbsp_in(int port, std::int64_t factor, int mode)
 Result<void> Engine::set_mcbsp_online(double scale_x, double scale_y, double resolution) {
     if (!std::isfinite(scale_x) || !std::isfinite(scale_y) || !std::isfinite(resolution))
         return fail(ErrorKind::refused, "set_mcbsp_x, _y, _rot: a scale is not a number; nothing was changed");
-    McBsp& m = state_.mcbsp;
-    m.online_x = scale_x != 0, m.online_y = scale_y != 0, m.online_rot = std::abs(resolution) >= min_resolution;
-    m.online_scale_x = scale_x, m.online_scale_y = scale_y, m.online_resolution = resolution;
     const FlyKind kind = state_.fly.kind;
-    m.online_matrix = 0;
-    if (!m.online()) return {};
-    m.in_mode = m.multi = 0;
-    if (kind == FlyKind::mcbsp || kind == FlyKind::mcbsp_rot || kind == FlyKind::multi) state_.fly = {};
+    const bool by_words = kind == FlyKind::mcbsp || kind == FlyKind::mcbsp_rot || kind == FlyKind::multi;
+    if (mcbsp_.begin_positioning(scale_x, scale_y, resolution) && by_words) state_.fly = {};
     return {};
 }
 
@@ -142,59 +130,18 @@ Result<void> Engine::set_mcbsp_rot(double resolution) {
 
 /// Sets X (0), Y (1) or the angle (2); the others are kept.
 void Engine::set_online(std::size_t which, double value) {
-    const McBsp& m = state_.mcbsp;
-    std::array<double, 3> all{};
-    if (!m.online_matrix)
-        all = {m.online_x ? m.online_scale_x : 0, m.online_y ? m.online_scale_y : 0,
-               m.online_rot ? m.online_resolution : 0};
+    std::array<double, 3> all = mcbsp_.positioning_scales();
     all[which] = value;
     static_cast<void>(set_mcbsp_online(all[0], all[1], all[2]));
 }
 
-Result<std::int32_t> Engine::get_mcbsp() {
-    McBsp& m = state_.mcbsp;
-    if (!m.received) return fail(ErrorKind::refused, fmt::format("get_mcbsp: {}", no_word_yet));
-    m.put(0, static_cast<std::int32_t>(static_cast<std::uint32_t>(m.word)));
-    return m.memory[0];
-}
-
 void Engine::set_mcbsp_matrix() {
     static_cast<void>(set_mcbsp_online(1, 0, 0));
-    state_.mcbsp.online_matrix = 1;
+    mcbsp_.position_by_matrix();
 }
 
 Result<void> Engine::apply_mcbsp(int head, int at_once) {
-    const McBsp& m = state_.mcbsp;
-    if (m.online_matrix) {
-        const std::int32_t coefficient = m.memory[1];
-        return change_transform("apply_mcbsp", head, at_once, [&](Transform& t) {
-            t.matrix[static_cast<std::size_t>(coefficient & 3)] = static_cast<double>(coefficient >> 2) / 16777216;
-        });
-    }
-    // With rotation, bit 31 distinguishes the two kinds of words: 31 bits of offset or angle, or 15 bits each of x and
-    // y (low, high).
-    const auto word = static_cast<std::uint32_t>(m.memory[1]);
-    const bool both = m.online_x && m.online_y;
-    const auto sign_extended = [](std::uint32_t v, int bits) {
-        return static_cast<double>(static_cast<std::int32_t>(v << (32 - bits)) >> (32 - bits));
-    };
-    double x = 0, y = 0;
-    if (both)
-        x = m.online_rot ? sign_extended(word, 15) : sign_extended(word, 16),
-        y = m.online_rot ? sign_extended(word >> 15, 15) : sign_extended(word >> 16, 16);
-    else
-        x = y = m.online_rot ? sign_extended(word, 31) : sign_extended(word, 32);
-    const double turn =
-        m.online_rot
-            ? std::fmod(static_cast<double>(static_cast<std::uint32_t>(m.memory[2]) & 0x7FFFFFFF) / m.online_resolution,
-                        1.0) *
-                  360
-            : 0;
-    return change_transform("apply_mcbsp", head, at_once, [&](Transform& t) {
-        if (m.online_x) t.offset.x = x * m.online_scale_x;
-        if (m.online_y) t.offset.y = y * m.online_scale_y;
-        if (m.online_rot) t.angle_deg = turn;
-    });
+    return change_transform("apply_mcbsp", head, at_once, [&](Transform& t) { mcbsp_.apply_positioning(t); });
 }
 
 }  // namespace motionrack::rtc5
