@@ -49,7 +49,8 @@ void Engine::begin_tick() {
     if (state_.sampled == state_.tick) return;
     state_.sampled = state_.tick;
     laser_.begin_tick();
-    sample_inputs();
+    encoders_.sample();
+    mcbsp_.sample();
     take_move_starts();
 }
 
@@ -143,7 +144,7 @@ std::size_t Engine::fill(std::size_t n, std::size_t capacity) {
             break;
         default: {
             bool over = false;
-            m = static_cast<std::size_t>(wait_ticks(static_cast<std::int64_t>(m), over));
+            m = static_cast<std::size_t>(wait_.ticks(static_cast<std::int64_t>(m), over));
             if (over) a.done = a.steps;
         }
     }
@@ -171,7 +172,7 @@ bool Engine::skip(std::int64_t limit) {
     if (!s.lists.paused && a.kind == ActivityKind::none && until_rest_) n = 1;
     if (moves || (a.kind == ActivityKind::hold && !s.lists.paused)) n = std::min(limit, a.steps - a.done);
     if (!still && !moves) {
-        n = simple_wait(over);
+        n = wait_.steady_ticks(over);
         if (n < 0) return false;
         if (n > limit) n = limit, over = false;
     }

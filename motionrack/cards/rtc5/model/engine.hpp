@@ -14,6 +14,7 @@
 #include <motionrack/cards/rtc5/model/connections.hpp>
 #include <motionrack/cards/rtc5/model/correction.hpp>
 #include <motionrack/cards/rtc5/model/fly_table.hpp>
+#include <motionrack/cards/rtc5/model/input_wait.hpp>
 #include <motionrack/cards/rtc5/model/kernels.hpp>
 #include <motionrack/cards/rtc5/model/laser_control.hpp>
 #include <motionrack/cards/rtc5/model/mcbsp_receiver.hpp>
@@ -223,14 +224,6 @@ class Engine {
     void move_by_fly(bool backwards);
     void wait(const Command& c);
 
-    // inputs.cpp
-    void sample_inputs();
-    std::int64_t wait_ticks(std::int64_t limit, bool& over);
-    bool met(std::int64_t before, std::int64_t present) const;
-    bool met_at(std::size_t i) const;
-    bool met_now() const;
-    std::int64_t simple_wait(bool& over) const;
-
     // starts.cpp
     void take_move_starts();
     void enqueue(std::int32_t delay, int encoder);
@@ -280,6 +273,7 @@ class Engine {
     StatusFlags flags_{state_.flags, state_.limits};
     BeltEncoders encoders_{state_.encoders, state_.tick, connections_, *buffers_};
     McBspReceiver mcbsp_{state_.mcbsp, state_.fly, state_.tick, connections_, *buffers_};
+    InputWait wait_{state_.activity, encoders_, mcbsp_, *buffers_};
     LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
     WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
     bool until_rest_ = false;  // the run ends when the card is idle

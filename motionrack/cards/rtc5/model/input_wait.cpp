@@ -1,17 +1,12 @@
-// Encoder counts and McBSP words: in a tick, in blocks, and over intervals.
-#include <cmath>
-#include <motionrack/cards/rtc5/model/engine.hpp>
+// Conditions of waits, in a tick and in blocks.
+#include <algorithm>
+#include <motionrack/cards/rtc5/model/input_wait.hpp>
 
 namespace motionrack::rtc5 {
 
-void Engine::sample_inputs() {
-    encoders_.sample();
-    mcbsp_.sample();
-}
-
 /// True if a wait for an encoder or McBSP value ends in a tick with `present`, after a tick with `before`.
-bool Engine::met(std::int64_t before, std::int64_t present) const {
-    const std::int64_t value = state_.activity.value[0], mode = state_.activity.value[2];
+bool InputWait::met(std::int64_t before, std::int64_t present) const {
+    const std::int64_t value = activity_.value[0], mode = activity_.value[2];
     if (mode > 0) return present >= value;
     if (mode < 0) return present <= value;
     const std::int32_t change = wrapped(present - before);
@@ -20,40 +15,39 @@ bool Engine::met(std::int64_t before, std::int64_t present) const {
 }
 
 /// The same in tick i of the block, whose counts or words are loaded.
-bool Engine::met_at(std::size_t i) const {
-    const Activity& a = state_.activity;
+bool InputWait::met_at(std::size_t i) const {
+    const Activity& a = activity_;
     if (i == 0) return met_now();
     if (a.kind == ActivityKind::wait_encoder) {
-        const auto& counts = buffers_->counts[a.value[1]];
+        const auto& counts = buffers_.counts[a.value[1]];
         return met(counts[i - 1], counts[i]);
     }
     if (a.kind == ActivityKind::wait_range) {
-        const std::int32_t x = buffers_->counts[0][i], y = buffers_->counts[1][i];
+        const std::int32_t x = buffers_.counts[0][i], y = buffers_.counts[1][i];
         return x >= a.value[0] && x <= a.value[1] && y >= a.value[2] && y <= a.value[3];
     }
     const bool y = a.value[1] != 0;
-    return met(mcbsp_.axis_value(buffers_->words[i - 1], y), mcbsp_.axis_value(buffers_->words[i], y));
+    return met(mcbsp_.axis_value(buffers_.words[i - 1], y), mcbsp_.axis_value(buffers_.words[i], y));
 }
 
-bool Engine::met_now() const {
-    const Activity& a = state_.activity;
+bool InputWait::met_now() const {
+    const Activity& a = activity_;
     if (a.kind == ActivityKind::wait_encoder) {
         const BeltCounter& e = encoders_.counter(static_cast<std::size_t>(a.value[1]));
         return met(e.previous, e.count());
     }
     if (a.kind == ActivityKind::wait_range) {
-        const std::int32_t x = encoder(0), y = encoder(1);
+        const std::int32_t x = encoders_.count(0), y = encoders_.count(1);
         return x >= a.value[0] && x <= a.value[1] && y >= a.value[2] && y <= a.value[3];
     }
     const bool y = a.value[1] != 0;
     return met(mcbsp_.axis_value(mcbsp_.previous(), y), mcbsp_.axis_value(mcbsp_.word(), y));
 }
 
-/// Number of ticks of the wait among the next `limit`, including the one that ends it.
-std::int64_t Engine::wait_ticks(std::int64_t limit, bool& over) {
+std::int64_t InputWait::ticks(std::int64_t limit, bool& over) {
     const auto n = static_cast<std::size_t>(limit);
-    if (state_.activity.kind == ActivityKind::wait_mcbsp) {
-        if (!mcbsp_.load_words(n)) std::fill_n(buffers_->words.begin(), n, mcbsp_.word());
+    if (activity_.kind == ActivityKind::wait_mcbsp) {
+        if (!mcbsp_.load_words(n)) std::fill_n(buffers_.words.begin(), n, mcbsp_.word());
     } else {
         for (std::size_t e = 0; e < encoder_count; ++e) encoders_.load_counts(e, n);
     }
@@ -65,10 +59,9 @@ std::int64_t Engine::wait_ticks(std::int64_t limit, bool& over) {
     return limit;
 }
 
-/// The same without evaluating each tick, if the counts are constant or simulated; -1: each tick must be evaluated.
-std::int64_t Engine::simple_wait(bool& over) const {
+std::int64_t InputWait::steady_ticks(bool& over) const {
     constexpr std::int64_t endless = std::int64_t{1} << 60, half = std::int64_t{1} << 31;
-    const Activity& a = state_.activity;
+    const Activity& a = activity_;
     over = met_now();
     if (over) return 1;
     if (a.kind == ActivityKind::wait_mcbsp) return endless;

@@ -1,0 +1,33 @@
+// The end of a wait for encoder counts or McBSP words.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <motionrack/cards/rtc5/model/belt_encoders.hpp>
+#include <motionrack/cards/rtc5/model/mcbsp_receiver.hpp>
+
+namespace motionrack::rtc5 {
+
+class InputWait {
+  public:
+    /// `activity`: the part of the card's state that waits.
+    InputWait(const Activity& activity, BeltEncoders& encoders, McBspReceiver& mcbsp, BlockBuffers& buffers)
+        : activity_(activity), encoders_(encoders), mcbsp_(mcbsp), buffers_(buffers) {}
+
+    /// Number of ticks of the wait among the next `limit`, including the one that ends it; `over`: it ends in them.
+    std::int64_t ticks(std::int64_t limit, bool& over);
+    /// The same without evaluating each tick, if the counts are constant or simulated; -1: each tick must be evaluated.
+    std::int64_t steady_ticks(bool& over) const;
+
+  private:
+    bool met(std::int64_t before, std::int64_t present) const;
+    bool met_at(std::size_t i) const;
+    bool met_now() const;
+
+    const Activity& activity_;
+    BeltEncoders& encoders_;
+    McBspReceiver& mcbsp_;
+    BlockBuffers& buffers_;
+};
+
+}  // namespace motionrack::rtc5
