@@ -10,10 +10,46 @@ namespace motionrack::rtc5 {
 
 void Engine::load_program_file() {
     state_.reset(settings_);
-    std::fill_n(memory_.get(), settings_.list_memory, Command{});
+    memory_.clear();
     tables_ = {};
     fly_table_.reset();
     laser_.switch_off();
+}
+
+Result<void> Engine::execute_list(std::uint32_t list, std::int64_t position) {
+    MOTIONRACK_TRY(const std::int64_t at, memory_.find_position(list, position));
+    return list_.execute_at(at);
+}
+
+/// `cause`: bit of the start and stop info.
+void Engine::stop(std::uint32_t cause) {
+    State& s = state_;
+    list_.stop();
+    s.activity = {};
+    leave_fly();
+    s.starts.waiting = s.starts.triggers = s.starts.asked_count = 0;
+    s.starts.queue = s.starts.asked = {};
+    laser_.switch_off();
+    s.recording.period = 0;
+    flags_.raise_startstop(cause);
+}
+
+void Engine::pause_list() {
+    if (list_.pause()) laser_.switch_now(false);
+}
+
+void Engine::restart_list() {
+    if (list_.restart()) laser_.switch_now(true);
+}
+
+Result<void> Engine::goto_xy(double x, double y) {
+    if (state_.lists.running || state_.activity.kind != ActivityKind::none)
+        return fail(ErrorKind::refused,
+                    "goto_xy: a list is running, or the card moves. Nothing was moved. Wait until it is not busy");
+    MOTIONRACK_TRY(const Command jump, list_command(Op::jump_abs, {x, y}));
+    jump_to({jump.p[0], jump.p[1]});
+    state_.lists.moving_alone = 1;
+    return {};
 }
 
 Result<void> Engine::load_correction(std::shared_ptr<const Table> table, int number) {
@@ -93,18 +129,6 @@ void Engine::init_fly_2d(std::int32_t offset_x, std::int32_t offset_y) {
 
 void Engine::encoder_sequence_error(int encoder) {
     flags_.raise(encoder == 0 ? marking_bit("ENCODER_X_SEQUENCE") : marking_bit("ENCODER_Y_SEQUENCE"), state_.tick);
-}
-
-std::uint32_t Engine::status() const {
-    const Lists& l = state_.lists;
-    return (l.running ? status_bit("BUSY") : 0) | (l.moving_alone ? status_bit("INTERNAL_BUSY") : 0) |
-           (l.paused ? status_bit("PAUSED") : 0);
-}
-
-std::uint32_t Engine::list_status() const {
-    const Lists& l = state_.lists;
-    const std::uint32_t busy = l.running ? list_status_bit("BUSY1") << (l.current < l.begin[1] ? 0 : 1) : 0;
-    return static_cast<std::uint32_t>(l.loaded) | busy;
 }
 
 std::uint32_t Engine::startstop_info() const {

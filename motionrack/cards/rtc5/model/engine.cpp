@@ -1,23 +1,13 @@
 // Advance of ticks: in blocks with a sink, from vector to vector without.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 
 namespace motionrack::rtc5 {
 
-void Engine::Free::operator()(void* memory) const {
-    std::free(memory);  // NOLINT(cppcoreguidelines-no-malloc): allocated by calloc
-}
-
 Engine::Engine(const Settings& settings) : settings_(settings) {
     MOTIONRACK_ASSERT(check(settings).has_value());
-    // NOLINTBEGIN(cppcoreguidelines-no-malloc): zeros are empty positions, and pages that no list touches use no memory
-    static_assert(static_cast<int>(Op::none) == 0);
-    memory_.reset(static_cast<Command*>(std::calloc(static_cast<std::size_t>(settings.list_memory), sizeof(Command))));
-    recorded_.reset(static_cast<std::int32_t*>(std::calloc(record_values, sizeof(std::int32_t))));
-    MOTIONRACK_ASSERT(memory_ != nullptr && recorded_ != nullptr);  // NOLINTEND(cppcoreguidelines-no-malloc)
     state_.lists.reset(settings);
 }
 
@@ -98,7 +88,7 @@ std::size_t Engine::micro_vectors(std::size_t n, std::size_t capacity) {
                        end = std::min<std::int64_t>(l.begin[3], first + static_cast<std::int64_t>(capacity - n));
     std::int64_t at = first;
     for (; at < end; ++at, ++n) {
-        const Command& c = memory_[static_cast<std::size_t>(at)];
+        const Command& c = memory_[at];
         if (c.op != Op::micro_vector_abs || !silent(c.p[2]) || !silent(c.p[3])) break;
         buffers_->x[n] = c.p[0];
         buffers_->y[n] = c.p[1];
@@ -203,7 +193,8 @@ void Engine::copy_beside_state(const Engine& other) {
     tables_ = other.tables_;
     fly_table_ = other.fly_table_;
     const Recording& r = state_.recording;
-    std::copy_n(other.recorded_.get(), static_cast<std::size_t>(r.count * r.channels), recorded_.get());
+    std::ranges::copy(other.recorded_.span().first(static_cast<std::size_t>(r.count * r.channels)),
+                      recorded_.span().begin());
 }
 
 }  // namespace motionrack::rtc5

@@ -17,6 +17,8 @@
 #include <motionrack/cards/rtc5/model/input_wait.hpp>
 #include <motionrack/cards/rtc5/model/kernels.hpp>
 #include <motionrack/cards/rtc5/model/laser_control.hpp>
+#include <motionrack/cards/rtc5/model/list_execution.hpp>
+#include <motionrack/cards/rtc5/model/list_memory.hpp>
 #include <motionrack/cards/rtc5/model/mcbsp_receiver.hpp>
 #include <motionrack/cards/rtc5/model/not_due.hpp>
 #include <motionrack/cards/rtc5/model/settings.hpp>
@@ -37,25 +39,29 @@ class Engine {
 
     // ---- lists (lists.cpp)
     /// list2 of -1: the remaining memory.
-    Result<void> config_list(std::int64_t list1, std::int64_t list2);
+    Result<void> config_list(std::int64_t list1, std::int64_t list2) { return memory_.configure(list1, list2); }
     /// Sets the input pointer of put(): list 1 (odd numbers) or 2 (even numbers), also while the list runs. Positions
     /// are 0 .. 1048575; behind the list's end they are 0.
-    Result<void> set_start_list(std::uint32_t list, std::int64_t position = 0);
+    Result<void> set_start_list(std::uint32_t list, std::int64_t position = 0) {
+        return memory_.set_start_list(list, position);
+    }
     /// The same for a list that is not running: 1, 2, a free one (0), or a free one that ran to its end (3). Returns
     /// the opened list; 0: none, and put() is refused until a list is opened.
-    Result<std::uint32_t> load_list(std::uint32_t list, std::int64_t position);
+    Result<std::uint32_t> load_list(std::uint32_t list, std::int64_t position) {
+        return memory_.load_list(list, position);
+    }
     /// Stores the commands up to list_return as subroutine `index` (0 .. 1023) in list 3; without commands the
     /// subroutine is deleted.
-    Result<void> load_sub(std::uint32_t index);
+    Result<void> load_sub(std::uint32_t index) { return memory_.load_sub(index); }
     /// Appends a command; refused if the list is full (nothing is changed). `command` must come from list_command().
-    Result<void> put(const Command& command);
+    Result<void> put(const Command& command) { return memory_.put(command); }
     std::int64_t input_pointer() const { return state_.lists.input; }
     /// Parameters as set_start_list takes them.
     Result<void> execute_list(std::uint32_t list, std::int64_t position = 0);
-    Result<void> execute_at(std::int64_t position);
-    void auto_change() { state_.lists.auto_change = 1; }
-    void start_loop() { state_.lists.loop = 1; }
-    void quit_loop() { state_.lists.loop = 0; }
+    Result<void> execute_at(std::int64_t position) { return list_.execute_at(position); }
+    void auto_change() { list_.auto_change(); }
+    void start_loop() { list_.start_loop(); }
+    void quit_loop() { list_.quit_loop(); }
     void stop_execution() { stop(startstop_bit("INTERNAL_STOP")); }
     void pause_list();
     void restart_list();
@@ -137,10 +143,10 @@ class Engine {
     bool at_rest() const;
 
     // ---- answers
-    bool busy() const { return state_.lists.running != 0; }
-    std::uint32_t status() const;
-    std::uint32_t list_status() const;
-    std::int64_t list_position() const { return state_.lists.current; }
+    bool busy() const { return list_.is_running(); }
+    std::uint32_t status() const { return list_.status(); }
+    std::uint32_t list_status() const { return memory_.status(); }
+    std::int64_t list_position() const { return list_.position(); }
     std::int32_t encoder(int number) const { return encoders_.count(static_cast<std::size_t>(number)); }
     Result<std::int32_t> read_mcbsp(int location) const { return mcbsp_.read(location); }
     std::int32_t read_multi_mcbsp(int type) const { return mcbsp_.typed(type); }
@@ -174,7 +180,7 @@ class Engine {
     const PlanExtent& extent() const { return extent_; }
     void clear_extent() { extent_ = {}; }
     State& mutable_state() { return state_; }
-    std::span<Command> memory() { return {memory_.get(), static_cast<std::size_t>(settings_.list_memory)}; }
+    std::span<Command> memory() { return memory_.commands(); }
     const Settings& settings() const { return settings_; }
 
   private:
@@ -203,9 +209,6 @@ class Engine {
     const Command* next_mark() const;
     Point direction_of(const Command& mark) const;
     Point target_of(const Command& c, bool relative) const;
-    void end_list(bool written, std::int64_t tick);
-    void call(std::int64_t position, std::int64_t tick);
-    void come_back();
 
     // fly.cpp: commands of the pipeline
     void pipeline_command(const Command& c);
@@ -231,8 +234,7 @@ class Engine {
     void report_start(StartFate fate);
     std::int64_t ticks_to_start(std::int64_t limit);
 
-    // lists.cpp
-    void open(std::int64_t input, std::int64_t end);
+    // control.cpp
     void stop(std::uint32_t cause);
 
     // pipeline.cpp
@@ -252,25 +254,22 @@ class Engine {
     void record();
     std::int32_t value_of(const SignalInfo& signal) const;
 
-    // control.cpp
     void set_online(std::size_t which, double value);
     template <class Change>
     Result<void> change_transform(std::string_view command, int head, int at_once, const Change& change);
     void transforms_of_jump();
 
     Settings settings_;
-    struct Free {
-        void operator()(void* memory) const;
-    };
-    std::unique_ptr<Command[], Free> memory_;
-    std::unique_ptr<std::int32_t[], Free> recorded_;
     State state_;
     Connections connections_;
+    ZeroedArray<std::int32_t> recorded_{record_values};
     NotDue not_due_;
     std::array<std::shared_ptr<const Table>, table_count> tables_;
     std::shared_ptr<const FlyTable> fly_table_;
     std::unique_ptr<BlockBuffers> buffers_ = std::make_unique<BlockBuffers>();
     StatusFlags flags_{state_.flags, state_.limits};
+    ListMemory memory_{state_.lists, state_.memory_hash, settings_};
+    ListExecution list_{state_.lists, flags_, connections_};
     BeltEncoders encoders_{state_.encoders, state_.tick, connections_, *buffers_};
     McBspReceiver mcbsp_{state_.mcbsp, state_.fly, state_.tick, connections_, *buffers_};
     InputWait wait_{state_.activity, encoders_, mcbsp_, *buffers_};

@@ -42,10 +42,10 @@ bool Engine::next_step(std::size_t n) {
         if (l.next >= l.begin[3]) {
             if (n > 0) return false;  // the running state of a list is constant in a block
             l.current = l.next;
-            end_list(false, tick);
+            list_.end(false, tick);
             continue;
         }
-        const Command& c = memory_[static_cast<std::size_t>(l.next)];
+        const Command& c = memory_[l.next];
         const ListCommandInfo& what = info(c.op);
         if (n > 0 && what.timing != Timing::shortly && what.timing != Timing::motion) return false;
         if (n > 0 && state_.later_count != 0) return false;  // a jump would change transforms
@@ -95,7 +95,7 @@ const Command* Engine::next_mark() const {
     const Lists& l = state_.lists;
     if (!l.running) return nullptr;
     for (std::int64_t at = l.next; at < l.begin[3];) {
-        const Command& c = memory_[static_cast<std::size_t>(at)];
+        const Command& c = memory_[at];
         if (is_mark(c.op)) return &c;
         if (info(c.op).timing != Timing::shortly && info(c.op).timing != Timing::across) return nullptr;
         at += info(c.op).positions;
@@ -191,9 +191,9 @@ void Engine::take(const Command& c, std::int64_t tick) {
     const auto whole = [&](int i) { return static_cast<std::int64_t>(c.p[static_cast<std::size_t>(i)]); };
     switch (c.op) {
         case Op::none:
-            return end_list(false, tick);
+            return list_.end(false, tick);
         case Op::set_end_of_list:
-            return end_list(true, tick);
+            return list_.end(true, tick);
         case Op::set_jump_speed:
             s.jump_speed = c.p[0];
             return;
@@ -215,13 +215,14 @@ void Engine::take(const Command& c, std::int64_t tick) {
         case Op::set_wobbel:
             return wobbel_.set(c);
         case Op::list_call:
-            return call(whole(0), tick);
-        case Op::sub_call: {
-            const std::int64_t begin = s.lists.subroutines[static_cast<std::size_t>(whole(0))];
-            return call(begin == 0 ? -1 : begin, tick);
-        }
+            if (!list_.call(whole(0), tick)) begin_hold(1);
+            return;
+        case Op::sub_call:
+            if (!list_.call(list_.subroutine(whole(0)), tick)) begin_hold(1);
+            return;
         case Op::list_return:
-            return come_back();
+            if (!list_.come_back()) begin_hold(1);
+            return;
         case Op::set_trigger:
         case Op::set_trigger4:
             set_trigger(c, tick);

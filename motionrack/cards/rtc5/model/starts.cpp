@@ -47,20 +47,16 @@ void Engine::enqueue(std::int32_t delay, int encoder) {
 }
 
 void Engine::begin_start() {
-    Lists& l = state_.lists;
     Starts& s = state_.starts;
     for (std::size_t e = 0; e < encoder_count; ++e) s.last[e] = encoders_.counter(e).travel;
     s.has_last = 1;
-    if (l.running || l.moving_alone) {
+    if (list_.is_busy()) {
         flags_.raise(marking_bit("TRIGGER_ERROR"), state_.tick);
         flags_.raise_startstop(startstop_bit("START_LOST"));
         return report_start(StartFate::busy);
     }
     encoders_.take_start();
-    l.running = 1;
-    l.depth = 0;
-    l.next = l.current = s.position;
-    flags_.raise_startstop(startstop_bit("EXTERNAL_START"));
+    list_.begin(s.position, startstop_bit("EXTERNAL_START"));
     report_start(StartFate::begun);
 }
 

@@ -1,10 +1,9 @@
-// Lists: memory, loading, start and end.
+// Loading of lists.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <motionrack/cards/rtc5/model/engine.hpp>
+#include <motionrack/cards/rtc5/model/list_memory.hpp>
 
 namespace motionrack::rtc5 {
 
@@ -20,17 +19,17 @@ Result<void> check(const Settings& s) {
     return {};
 }
 
-Result<void> Engine::config_list(std::int64_t list1, std::int64_t list2) {
-    if (state_.lists.running)
+Result<void> ListMemory::configure(std::int64_t list1, std::int64_t list2) {
+    if (lists_.running)
         return fail(ErrorKind::refused,
                     "config_list: a list is running. The memory was not changed. Stop the list first");
     const std::int64_t rest = settings_.list_memory - std::clamp<std::int64_t>(list1, 0, settings_.list_memory);
     Settings changed = settings_;
     changed.list1 = list1, changed.list2 = list2 == -1 ? rest : list2;
     MOTIONRACK_CHECK(check(changed));
-    state_.lists.begin = {0, list1, list1 + changed.list2, settings_.list_memory};
-    state_.lists.subroutines = {};
-    state_.lists.list3_used = 0;
+    lists_.begin = {0, list1, list1 + changed.list2, settings_.list_memory};
+    lists_.subroutines = {};
+    lists_.list3_used = 0;
     return set_start_list(1);
 }
 
@@ -74,9 +73,9 @@ std::int64_t place(std::size_t list, std::int64_t position, const Lists& l) {
 
 }  // namespace
 
-Result<void> Engine::set_start_list(std::uint32_t list, std::int64_t position) {
+Result<void> ListMemory::set_start_list(std::uint32_t list, std::int64_t position) {
     MOTIONRACK_CHECK(check_position(position));
-    Lists& l = state_.lists;
+    Lists& l = lists_;
     const std::size_t number = list_of(list, l);
     open(place(number, position, l), l.begin[number + 1]);
     l.loaded &= ~(std::int64_t{list_status_bit("READY1") | list_status_bit("USED1")} << number);
@@ -84,15 +83,15 @@ Result<void> Engine::set_start_list(std::uint32_t list, std::int64_t position) {
     return {};
 }
 
-void Engine::open(std::int64_t input, std::int64_t end) {
-    Lists& l = state_.lists;
+void ListMemory::open(std::int64_t input, std::int64_t end) {
+    Lists& l = lists_;
     l.input = input, l.input_end = end;
     l.loading = 0;
     l.loaded &= ~std::int64_t{list_status_bit("LOAD1") | list_status_bit("LOAD2")};
 }
 
-Result<void> Engine::load_sub(std::uint32_t index) {
-    Lists& l = state_.lists;
+Result<void> ListMemory::load_sub(std::uint32_t index) {
+    Lists& l = lists_;
     if (index >= subroutine_count)
         return fail(ErrorKind::refused, fmt::format("load_sub: subroutine {} must be 0 to {}. Nothing was changed",
                                                     index, subroutine_count - 1));
@@ -101,10 +100,10 @@ Result<void> Engine::load_sub(std::uint32_t index) {
     return {};
 }
 
-Result<std::uint32_t> Engine::load_list(std::uint32_t list, std::int64_t position) {
+Result<std::uint32_t> ListMemory::load_list(std::uint32_t list, std::int64_t position) {
     MOTIONRACK_CHECK(check_position(position));
-    Lists& l = state_.lists;
-    const std::uint32_t status = list_status();
+    Lists& l = lists_;
+    const std::uint32_t status = this->status();
     const auto free = [&](std::size_t i, bool used) {
         return !(status & list_status_bit("BUSY1") << i) && (!used || status & list_status_bit("USED1") << i);
     };
@@ -120,8 +119,8 @@ Result<std::uint32_t> Engine::load_list(std::uint32_t list, std::int64_t positio
     return 0u;
 }
 
-Result<void> Engine::put(const Command& command) {
-    Lists& l = state_.lists;
+Result<void> ListMemory::put(const Command& command) {
+    Lists& l = lists_;
     const ListCommandInfo& what = info(command.op);
     if (l.input < 0)
         return fail(ErrorKind::refused, fmt::format("{}: no list is open; the command was not added. Open a list "
@@ -132,8 +131,8 @@ Result<void> Engine::put(const Command& command) {
                                                     "Split the job between two lists (auto_change), or give "
                                                     "the list more memory (config_list)",
                                                     what.name, l.input));
-    store(memory(), state_.memory_hash, l.input, command);
-    for (int i = 1; i < what.positions; ++i) store(memory(), state_.memory_hash, l.input + i, {});
+    store(commands_.span(), memory_hash_, l.input, command);
+    for (int i = 1; i < what.positions; ++i) store(commands_.span(), memory_hash_, l.input + i, {});
     l.input += what.positions;
     if (command.op == Op::list_return && l.loading) {
         // The subroutine is complete; without commands it is deleted.
@@ -150,106 +149,19 @@ Result<void> Engine::put(const Command& command) {
     return {};
 }
 
-Result<void> Engine::execute_list(std::uint32_t list, std::int64_t position) {
+void ListMemory::clear() {
+    std::ranges::fill(commands_.span(), Command{});
+}
+
+Result<std::int64_t> ListMemory::find_position(std::uint32_t list, std::int64_t position) const {
     MOTIONRACK_CHECK(check_position(position));
-    return execute_at(place(list_of(list, state_.lists), position, state_.lists));
+    return place(list_of(list, lists_), position, lists_);
 }
 
-Result<void> Engine::execute_at(std::int64_t position) {
-    Lists& l = state_.lists;
-    if (l.running || l.moving_alone)
-        return fail(
-            ErrorKind::refused,
-            "execute_list: a list is running, or the card moves. Nothing was started. Wait until it is not busy");
-    if (position < 0 || position >= l.begin[3])
-        return fail(ErrorKind::refused,
-                    fmt::format("execute_at_pointer: the position is {}; it must be 0 to {}. Nothing was started",
-                                position, l.begin[3] - 1));
-    l.running = 1;
-    l.depth = 0;
-    l.next = l.current = position;
-    flags_.raise_startstop(startstop_bit("INTERNAL_START"));
-    return {};
-}
-
-/// Ends the running list; the other list may follow.
-void Engine::end_list(bool written, std::int64_t tick) {
-    Lists& l = state_.lists;
-    l.skip = 0;
-    l.depth = 0;
-    if (!written) ++l.ended_unwritten;
-    const std::int64_t at = l.current;
-    l.loaded |= std::int64_t{list_status_bit("USED1")} << (at < l.begin[1] ? 0 : 1);
-    // Lists that take no time would follow each other without end: at most one change per tick.
-    if (written && (l.auto_change || l.loop) && at < l.begin[2] && l.changed_at != tick) {
-        l.auto_change = 0;
-        l.changed_at = tick;
-        l.next = at < l.begin[1] ? l.begin[1] : l.begin[0];
-        return;
-    }
-    l.running = 0;
-    if (connections_.listener != nullptr) connections_.listener->ended(tick);
-}
-
-/// A call to an undefined target (-1) is a list_nop.
-void Engine::call(std::int64_t position, std::int64_t tick) {
-    Lists& l = state_.lists;
-    if (position < 0 || position == l.current || l.depth == static_cast<std::int64_t>(max_depth)) return begin_hold(1);
-    if (l.called_at != tick) l.calls = 0;
-    l.called_at = tick;
-    // Calls that take no time could follow each other without end.
-    if (++l.calls > static_cast<std::int64_t>(calls_per_tick)) {
-        l.next = l.current;
-        return begin_hold(1);
-    }
-    l.returns[static_cast<std::size_t>(l.depth++)] = l.next;
-    l.next = position;
-}
-
-void Engine::come_back() {
-    Lists& l = state_.lists;
-    if (l.depth == 0) return begin_hold(1);
-    l.next = l.returns[static_cast<std::size_t>(--l.depth)];
-}
-
-/// `cause`: bit of the start and stop info.
-void Engine::stop(std::uint32_t cause) {
-    State& s = state_;
-    Lists& l = s.lists;
-    l.running = l.depth = l.paused = l.skip = l.again = l.marking = l.moving_alone = l.auto_change = l.loop = 0;
-    s.activity = {};
-    leave_fly();
-    s.starts.waiting = s.starts.triggers = s.starts.asked_count = 0;
-    s.starts.queue = s.starts.asked = {};
-    laser_.switch_off();
-    s.recording.period = 0;
-    l.loaded |= list_status_bit("USED1") | list_status_bit("USED2");
-    flags_.raise_startstop(cause);
-}
-
-void Engine::pause_list() {
-    Lists& l = state_.lists;
-    if (!l.running || l.paused) return;
-    l.paused = 1;
-    l.paused_laser = l.marking;
-    if (l.marking) laser_.switch_now(false);
-}
-
-void Engine::restart_list() {
-    Lists& l = state_.lists;
-    if (!l.paused) return;
-    l.paused = 0;
-    if (l.paused_laser) laser_.switch_now(true);
-}
-
-Result<void> Engine::goto_xy(double x, double y) {
-    if (state_.lists.running || state_.activity.kind != ActivityKind::none)
-        return fail(ErrorKind::refused,
-                    "goto_xy: a list is running, or the card moves. Nothing was moved. Wait until it is not busy");
-    MOTIONRACK_TRY(const Command jump, list_command(Op::jump_abs, {x, y}));
-    jump_to({jump.p[0], jump.p[1]});
-    state_.lists.moving_alone = 1;
-    return {};
+std::uint32_t ListMemory::status() const {
+    const Lists& l = lists_;
+    const std::uint32_t busy = l.running ? list_status_bit("BUSY1") << (l.current < l.begin[1] ? 0 : 1) : 0;
+    return static_cast<std::uint32_t>(l.loaded) | busy;
 }
 
 }  // namespace motionrack::rtc5

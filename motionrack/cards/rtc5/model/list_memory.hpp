@@ -1,0 +1,47 @@
+// The memory of the lists: list 1, list 2, and list 3 with the subroutines; where the next command goes.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/cards/rtc5/model/state.hpp>
+#include <motionrack/cards/rtc5/model/zeroed_array.hpp>
+#include <span>
+
+namespace motionrack::rtc5 {
+
+class ListMemory {
+  public:
+    /// `lists` and `memory_hash`: parts of the card's state.
+    ListMemory(Lists& lists, std::uint64_t& memory_hash, const Settings& settings)
+        : lists_(lists),
+          memory_hash_(memory_hash),
+          settings_(settings),
+          commands_(static_cast<std::size_t>(settings.list_memory)) {
+        static_assert(static_cast<int>(Op::none) == 0);  // zeros are empty positions
+    }
+
+    const Command& operator[](std::int64_t position) const { return commands_[static_cast<std::size_t>(position)]; }
+    std::span<Command> commands() { return commands_.span(); }
+    /// Empties all positions.
+    void clear();
+
+    /// list2 of -1: the remaining memory.
+    Result<void> configure(std::int64_t list1, std::int64_t list2);
+    Result<void> set_start_list(std::uint32_t list, std::int64_t position = 0);
+    Result<std::uint32_t> load_list(std::uint32_t list, std::int64_t position);
+    Result<void> load_sub(std::uint32_t index);
+    Result<void> put(const Command& command);
+    /// Memory position of `position` in list 1 (odd numbers) or 2 (even numbers).
+    Result<std::int64_t> find_position(std::uint32_t list, std::int64_t position) const;
+    /// read_status
+    std::uint32_t status() const;
+
+  private:
+    void open(std::int64_t input, std::int64_t end);
+
+    Lists& lists_;
+    std::uint64_t& memory_hash_;
+    const Settings& settings_;
+    ZeroedArray<Command> commands_;
+};
+
+}  // namespace motionrack::rtc5
