@@ -145,7 +145,7 @@ double n_get_table_para(UINT CardNo, UINT TableNo, UINT ParaNo) {
 double n_get_head_para(UINT CardNo, UINT HeadNo, UINT ParaNo) {
     return with_card(__func__, CardNo, 0.0, [&](Card& card) -> Result<double> {
         MOTIONRACK_CHECK(check_range("HeadNo", HeadNo, 1, rtc5::head_count));
-        return header_word(card, card.engine.state().heads[HeadNo - 1].table, ParaNo);
+        return header_word(card, card.engine.state().transforms.heads[HeadNo - 1].table, ParaNo);
     });
 }
 

@@ -11,7 +11,7 @@ namespace motionrack::rtc5 {
 void Engine::load_program_file() {
     state_.reset(settings_);
     memory_.clear();
-    tables_ = {};
+    heads_.clear_tables();
     fly_table_.reset();
     laser_.switch_off();
 }
@@ -52,26 +52,6 @@ Result<void> Engine::goto_xy(double x, double y) {
     return {};
 }
 
-Result<void> Engine::load_correction(std::shared_ptr<const Table> table, int number) {
-    if (number < 1 || number > table_count)
-        return fail(
-            ErrorKind::refused,
-            fmt::format("load_correction_file: table {} must be 1 to {}. Nothing was changed", number, table_count));
-    tables_[static_cast<std::size_t>(number - 1)] = std::move(table);
-    return {};
-}
-
-Result<void> Engine::select_cor_table(int head_a, int head_b) {
-    for (const int number : {head_a, head_b})
-        if (number < 0 || number > table_count)
-            return fail(ErrorKind::refused,
-                        fmt::format("select_cor_table: table {} must be 1 to {}, or 0. Nothing was changed", number,
-                                    table_count));
-    state_.heads[0].table = head_a;
-    state_.heads[1].table = head_b;
-    return {};
-}
-
 Result<void> Engine::set_delays(const Delays& d) {
     struct Item {
         std::string_view name;
@@ -93,17 +73,6 @@ void Engine::set_jump_speed(double bits_ms) {
 }
 void Engine::set_mark_speed(double bits_ms) {
     if (std::isfinite(bits_ms)) state_.mark_speed = clipped(bits_ms, Kind::speed);
-}
-
-Result<void> Engine::set_hi(int head, Point gain, Point offset) {
-    MOTIONRACK_CHECK(check_parameter("set_hi", "HeadNo", head, 1, 3));
-    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoGainX", gain.x, -16, 16));
-    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoGainY", gain.y, -16, 16));
-    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoOffsetX", offset.x, min_field, max_field, "bits"));
-    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoOffsetY", offset.y, min_field, max_field, "bits"));
-    for (std::size_t i = 0; i < head_count; ++i)
-        if (head >> i & 1) state_.heads[i].gain = gain, state_.heads[i].offset = offset;
-    return {};
 }
 
 Result<void> Engine::set_rot_center(Point centre) {
@@ -140,6 +109,58 @@ std::uint32_t Engine::get_startstop_info() {
     const std::uint32_t out = startstop_info();
     flags_.clear_startstop_info();
     return out;
+}
+
+Result<void> Engine::set_mcbsp_in(int mode, double scale) {
+    MOTIONRACK_CHECK(list_command(Op::set_mcbsp_in_list, {static_cast<double>(mode), scale}));
+    mcbsp_in(mode, scale);
+    return {};
+}
+
+Result<void> Engine::set_multi_mcbsp_in(int port, std::int64_t factor, int mode) {
+    MOTIONRACK_CHECK(list_command(Op::set_multi_mcbsp_in_list,
+                                  {static_cast<double>(port), static_cast<double>(factor), static_cast<double>(mode)}));
+    mcbsp_.begin_typed_words(port, factor, mode);
+    state_.fly = Fly{FlyKind::multi, 1, 1};
+    state_.fly.scale_x = state_.fly.scale_y = 1;
+    return {};
+}
+
+Result<void> Engine::set_mcbsp_online(double scale_x, double scale_y, double resolution) {
+    if (!std::isfinite(scale_x) || !std::isfinite(scale_y) || !std::isfinite(resolution))
+        return fail(ErrorKind::refused, "set_mcbsp_x, _y, _rot: a scale is not a number; nothing was changed");
+    const FlyKind kind = state_.fly.kind;
+    const bool by_words = kind == FlyKind::mcbsp || kind == FlyKind::mcbsp_rot || kind == FlyKind::multi;
+    if (mcbsp_.begin_positioning(scale_x, scale_y, resolution) && by_words) state_.fly = {};
+    return {};
+}
+
+Result<void> Engine::set_mcbsp_x(double scale) {
+    MOTIONRACK_CHECK(list_command(Op::set_mcbsp_x_list, {scale}));
+    set_online(0, scale);
+    return {};
+}
+Result<void> Engine::set_mcbsp_y(double scale) {
+    MOTIONRACK_CHECK(list_command(Op::set_mcbsp_y_list, {scale}));
+    set_online(1, scale);
+    return {};
+}
+Result<void> Engine::set_mcbsp_rot(double resolution) {
+    MOTIONRACK_CHECK(list_command(Op::set_mcbsp_rot_list, {resolution}));
+    set_online(2, resolution);
+    return {};
+}
+
+/// Sets X (0), Y (1) or the angle (2); the others are kept.
+void Engine::set_online(std::size_t which, double value) {
+    std::array<double, 3> all = mcbsp_.positioning_scales();
+    all[which] = value;
+    static_cast<void>(set_mcbsp_online(all[0], all[1], all[2]));
+}
+
+void Engine::set_mcbsp_matrix() {
+    static_cast<void>(set_mcbsp_online(1, 0, 0));
+    mcbsp_.position_by_matrix();
 }
 
 }  // namespace motionrack::rtc5

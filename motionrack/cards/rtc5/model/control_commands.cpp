@@ -97,7 +97,7 @@ constexpr ControlCommand commands[] = {
      "a word of the header of a correction table, 1 is K in bits/mm; 0 of a 1:1 table", manual_124},
     {"get_head_para", {{{"HeadNo", 1, head_count}, up_to("ParaNo", 15)}}, 1, false, false, or_wrong,
      [](Engine& e, Numbers p) {
-         return header_word(e, e.state().heads[static_cast<std::size_t>(p[0]) - 1].table, p[1]);
+         return header_word(e, e.state().transforms.heads[static_cast<std::size_t>(p[0]) - 1].table, p[1]);
      },
      "the same of the table that a head has", manual_124},
     {"set_start_list_1", {}, 0, true, false, or_wrong,

@@ -190,7 +190,7 @@ void Engine::advance(std::int64_t n) {
 }
 
 void Engine::copy_beside_state(const Engine& other) {
-    tables_ = other.tables_;
+    heads_.copy_tables(other.heads_);
     fly_table_ = other.fly_table_;
     const Recording& r = state_.recording;
     std::ranges::copy(other.recorded_.span().first(static_cast<std::size_t>(r.count * r.channels)),

@@ -14,6 +14,7 @@
 #include <motionrack/cards/rtc5/model/connections.hpp>
 #include <motionrack/cards/rtc5/model/correction.hpp>
 #include <motionrack/cards/rtc5/model/fly_table.hpp>
+#include <motionrack/cards/rtc5/model/head_transforms.hpp>
 #include <motionrack/cards/rtc5/model/input_wait.hpp>
 #include <motionrack/cards/rtc5/model/kernels.hpp>
 #include <motionrack/cards/rtc5/model/laser_control.hpp>
@@ -73,18 +74,22 @@ class Engine {
     /// their power-up state.
     void load_program_file();
     /// Loads table 1 to 4; nullptr: 1:1.
-    Result<void> load_correction(std::shared_ptr<const Table> table, int number);
+    Result<void> load_correction(std::shared_ptr<const Table> table, int number) {
+        return heads_.load_table(std::move(table), number);
+    }
     /// Selects the tables of head A and B, 0 .. 4; 0: A: 1:1, B: no output.
-    Result<void> select_cor_table(int head_a, int head_b);
+    Result<void> select_cor_table(int head_a, int head_b) { return heads_.select_tables(head_a, head_b); }
     Result<void> set_delays(const Delays& delays);
     void set_jump_speed(double bits_ms);
     void set_mark_speed(double bits_ms);
     /// at_once 0, 1, 3: with the next tick; 2: with the next jump. `head`: 1 A, 2 B, 3 both, 4 all, before fly.
-    Result<void> set_matrix(int head, std::array<double, 4> matrix, int at_once);
-    Result<void> set_offset(int head, Point offset, int at_once);
-    Result<void> set_angle(int head, double degrees, int at_once);
-    Result<void> set_scale(int head, double scale, int at_once);
-    Result<void> set_hi(int head, Point gain, Point offset);
+    Result<void> set_matrix(int head, std::array<double, 4> matrix, int at_once) {
+        return heads_.set_matrix(head, matrix, at_once);
+    }
+    Result<void> set_offset(int head, Point offset, int at_once) { return heads_.set_offset(head, offset, at_once); }
+    Result<void> set_angle(int head, double degrees, int at_once) { return heads_.set_angle(head, degrees, at_once); }
+    Result<void> set_scale(int head, double scale, int at_once) { return heads_.set_scale(head, scale, at_once); }
+    Result<void> set_hi(int head, Point gain, Point offset) { return heads_.set_hi(head, gain, offset); }
     Result<void> set_rot_center(Point centre);
     Result<void> simulate_encoder(int which) { return encoders_.simulate(which); }
     void set_tracking_error(std::uint16_t x, std::uint16_t y) { encoders_.set_tracking_error(x, y); }
@@ -109,7 +114,7 @@ class Engine {
     Result<void> set_mcbsp_rot(double resolution);
     /// Online positioning of matrix coefficients: words of (M * 2^24) * 4 + 2 i + j, |M| < 32.
     void set_mcbsp_matrix();
-    Result<void> apply_mcbsp(int head, int at_once);
+    Result<void> apply_mcbsp(int head, int at_once) { return heads_.apply(mcbsp_, head, at_once); }
     /// The present word, also copied to location 0. Errors: refused if none has been received.
     Result<std::int32_t> get_mcbsp() { return mcbsp_.store_now(); }
     /// Signals that are sent from the next tick on, one per tick, in turn; none: sending ends. At most 8.
@@ -158,7 +163,7 @@ class Engine {
     std::int64_t multi_power() const { return mcbsp_.power(); }
     std::uint32_t get_startstop_info();
     /// Correction table 1 .. 4; nullptr: 1:1.
-    const Table* table(std::int64_t number) const;
+    const Table* table(std::int64_t number) const { return heads_.table(number); }
     /// The same without clearing.
     std::uint32_t startstop_info() const;
     /// Value of a signal in the last tick.
@@ -216,7 +221,6 @@ class Engine {
     void set_fly(const Command& c);
     void mcbsp_in(int mode, double scale);
     void control_command(const Command& c);
-    void transform_command(const Command& c);
     void be_kind(FlyKind kind);
     void settle_kind();
     void turn(FlyKind kind, double resolution);
@@ -242,7 +246,6 @@ class Engine {
     void apply_fly(std::size_t n);
     void check_z(std::size_t n);
     double z_now() const;
-    void run_head(std::size_t number, std::size_t n);
     void keep_output(std::size_t n);
     void evaluate();
     std::optional<PlanExtent> steady_extent(const Activity& a, std::int64_t n) const;
@@ -255,16 +258,12 @@ class Engine {
     std::int32_t value_of(const SignalInfo& signal) const;
 
     void set_online(std::size_t which, double value);
-    template <class Change>
-    Result<void> change_transform(std::string_view command, int head, int at_once, const Change& change);
-    void transforms_of_jump();
 
     Settings settings_;
     State state_;
     Connections connections_;
     ZeroedArray<std::int32_t> recorded_{record_values};
     NotDue not_due_;
-    std::array<std::shared_ptr<const Table>, table_count> tables_;
     std::shared_ptr<const FlyTable> fly_table_;
     std::unique_ptr<BlockBuffers> buffers_ = std::make_unique<BlockBuffers>();
     StatusFlags flags_{state_.flags, state_.limits};
@@ -273,6 +272,7 @@ class Engine {
     BeltEncoders encoders_{state_.encoders, state_.tick, connections_, *buffers_};
     McBspReceiver mcbsp_{state_.mcbsp, state_.fly, state_.tick, connections_, *buffers_};
     InputWait wait_{state_.activity, encoders_, mcbsp_, *buffers_};
+    HeadTransforms heads_{state_.transforms, *buffers_};
     LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
     WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
     bool until_rest_ = false;  // the run ends when the card is idle

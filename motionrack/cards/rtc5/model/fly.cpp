@@ -42,7 +42,7 @@ void Engine::pipeline_command(const Command& c) {
         case Op::set_offset_list:
         case Op::set_angle_list:
         case Op::set_scale_list:
-            return transform_command(c);
+            return heads_.take(c);
         default:
             break;
     }
@@ -266,7 +266,7 @@ Point Engine::fly_of(Point p, bool backwards) const {
 /// Adds the correction to p (so that the correction can be switched off), or removes it.
 void Engine::move_by_fly(bool backwards) {
     if (!state_.fly.on()) return;
-    const Point g = through(state_.global, state_.p), offset = fly_of(g, backwards) - g;
+    const Point g = through(heads_.global(), state_.p), offset = fly_of(g, backwards) - g;
     state_.p = {clipped(state_.p.x + offset.x, Kind::coordinate), clipped(state_.p.y + offset.y, Kind::coordinate)};
 }
 

@@ -48,7 +48,7 @@ bool Engine::next_step(std::size_t n) {
         const Command& c = memory_[l.next];
         const ListCommandInfo& what = info(c.op);
         if (n > 0 && what.timing != Timing::shortly && what.timing != Timing::motion) return false;
-        if (n > 0 && state_.later_count != 0) return false;  // a jump would change transforms
+        if (n > 0 && heads_.wait_for_jump()) return false;  // a jump would change transforms
         if (l.skip) {
             l.skip = 0;
             l.next += what.positions;
@@ -168,7 +168,7 @@ void Engine::begin_arc(const Command& c) {
 }
 
 void Engine::jump_to(Point target) {
-    transforms_of_jump();
+    heads_.begin_jump();
     begin_line(target, state_.jump_speed, Ending::jump);
 }
 
@@ -244,7 +244,7 @@ void Engine::take_motion(const Command& c, std::int64_t tick) {
             return jump_to(target);
         case Op::timed_jump_abs:
         case Op::timed_jump_rel:
-            transforms_of_jump();
+            heads_.begin_jump();
             return begin_line(target, 0, Ending::jump,
                               std::max<std::int64_t>(1, static_cast<std::int64_t>(c.p[2] / 10)));
         case Op::mark_abs:

@@ -9,7 +9,7 @@ namespace motionrack::rtc5 {
 void Engine::run_pipeline(std::size_t n, Sink* sink) {
     BlockBuffers& b = *buffers_;
     laser_.run_until(state_.tick + static_cast<std::int64_t>(n));
-    if (!state_.global.neutral) kernels::transform(b.x.data(), b.y.data(), n, state_.global);
+    heads_.transform_block(n);
     if (state_.fly.on()) {
         apply_fly(n);
         const PlanExtent extent = kernels::extent(b.x.data(), b.y.data(), n);
@@ -22,9 +22,9 @@ void Engine::run_pipeline(std::size_t n, Sink* sink) {
         evaluated_ = false;
         return;
     }
-    run_head(0, n);
-    const bool second = state_.heads[1].table != 0;
-    if (second) run_head(1, n);
+    heads_.run_head(0, n);
+    const bool second = heads_.second_head();
+    if (second) heads_.run_head(1, n);
     keep_output(n);
     if (recorded) record();
     if (sink == nullptr) return;
@@ -93,31 +93,13 @@ double Engine::z_now() const {
     return f.z ? state_.z + f.scale_z * encoders_.effective(static_cast<std::size_t>(f.z_encoder)) : state_.z;
 }
 
-const Table* Engine::table(std::int64_t number) const {
-    return number == 0 ? nullptr : tables_[static_cast<std::size_t>(number - 1)].get();
-}
-
-void Engine::run_head(std::size_t number, std::size_t n) {
-    BlockBuffers& b = *buffers_;
-    const Head& head = state_.heads[number];
-    const double *x = b.x.data(), *y = b.y.data();
-    if (!head.transform.neutral) {
-        std::copy_n(x, n, b.head_x.data());
-        std::copy_n(y, n, b.head_y.data());
-        kernels::transform(b.head_x.data(), b.head_y.data(), n, head.transform);
-        x = b.head_x.data(), y = b.head_y.data();
-    }
-    kernels::head(x, y, b.out[2 * number].data(), b.out[2 * number + 1].data(), n, table(head.table), head.gain,
-                  head.offset);
-}
-
 /// Output of the last of n ticks.
 void Engine::keep_output(std::size_t n) {
     const BlockBuffers& b = *buffers_;
     HeadOutput& o = state_.output;
     o.a = {b.out[0][n - 1], b.out[1][n - 1]};
-    o.b = state_.heads[1].table != 0 ? std::array<std::int32_t, 2>{b.out[2][n - 1], b.out[3][n - 1]}
-                                     : std::array<std::int32_t, 2>{};
+    o.b = heads_.second_head() ? std::array<std::int32_t, 2>{b.out[2][n - 1], b.out[3][n - 1]}
+                               : std::array<std::int32_t, 2>{};
     o.corrected = {b.x[n - 1], b.y[n - 1]};
     const bool moves = state_.fly.z || state_.fly.kind == FlyKind::multi;
     o.z = std::clamp(n > 1 && moves ? block_z_ : z_now(), min_z, max_z);
@@ -130,10 +112,10 @@ void Engine::evaluate() {
     BlockBuffers& b = *buffers_;
     const Point p = state_.p + wobbel_.offset();
     b.x[0] = p.x, b.y[0] = p.y;
-    if (!state_.global.neutral) kernels::transform(b.x.data(), b.y.data(), 1, state_.global);
+    heads_.transform_block(1);
     if (state_.fly.on()) apply_fly(1);
-    run_head(0, 1);
-    if (state_.heads[1].table != 0) run_head(1, 1);
+    heads_.run_head(0, 1);
+    if (heads_.second_head()) heads_.run_head(1, 1);
     keep_output(1);
 }
 
@@ -142,7 +124,7 @@ void Engine::evaluate() {
 std::optional<PlanExtent> Engine::steady_extent(const Activity& a, std::int64_t n) const {
     const Fly& f = state_.fly;
     const bool encoders = f.kind == FlyKind::encoder;
-    if ((!encoders && f.kind != FlyKind::mcbsp) || f.z || a.kind == ActivityKind::arc || !state_.global.neutral ||
+    if ((!encoders && f.kind != FlyKind::mcbsp) || f.z || a.kind == ActivityKind::arc || !heads_.global().neutral ||
         connections_.inputs != nullptr)
         return std::nullopt;
     for (const BeltCounter& e : state_.encoders.counters)

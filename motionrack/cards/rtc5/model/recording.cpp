@@ -51,7 +51,7 @@ void Engine::record() {
 
 std::int32_t Engine::value_of(const SignalInfo& s) const {
     if (s.laser_only && !state_.laser.on) return whole(min_field);
-    const Head& head = state_.heads[s.head];
+    const Head& head = heads_.head(s.head);
     const bool no_head = s.head == 1 && head.table == 0;
     Point p = state_.output.corrected;
     switch (s.source) {
@@ -67,7 +67,7 @@ std::int32_t Engine::value_of(const SignalInfo& s) const {
             if (!head.transform.neutral) kernels::transform(&p.x, &p.y, 1, head.transform);
             if (s.source == SignalSource::transformed) return whole(s.axis == 0 ? p.x : p.y);
             std::array<std::int32_t, 2> out{};
-            kernels::head(&p.x, &p.y, &out[0], &out[1], 1, table(head.table), {1, 1}, {0, 0});
+            kernels::head(&p.x, &p.y, &out[0], &out[1], 1, heads_.table(head.table), {1, 1}, {0, 0});
             return out[s.axis];
         }
         case SignalSource::output:

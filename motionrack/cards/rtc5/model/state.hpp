@@ -215,6 +215,13 @@ struct Head {
     Point gain{1, 1}, offset;
 };
 
+struct TransformsState {
+    Transform global;
+    std::array<Head, head_count> heads{};
+    std::int64_t later_count = 0;      ///< transforms pending until the next jump: bit HeadNo
+    std::array<Transform, 3> later{};  ///< heads A, B, global
+};
+
 struct HeadOutput {
     std::array<std::int32_t, 2> a{}, b{};  ///< x, y of both heads
     double z = 0;
@@ -240,10 +247,7 @@ struct State {
     Starts starts;
     std::int64_t control_mode = 0;
     FlagsState flags;
-    Transform global;
-    std::array<Head, head_count> heads{};
-    std::int64_t later_count = 0;      ///< transforms pending until the next jump: bit HeadNo
-    std::array<Transform, 3> later{};  ///< heads A, B, global
+    TransformsState transforms;
     std::int64_t io = 0;
     Wobbel wobbel;
     Recording recording;

@@ -173,13 +173,13 @@ TEST(Rtc5Fly, OnlinePositioningUsesLocations1And2AndMovesWhenApplied) {
     rig.card.receive(1000);
     rig.run(1);
     ASSERT_TRUE(rig.card.apply_mcbsp(1, 1));
-    EXPECT_DOUBLE_EQ(rig.card.state().heads[0].transform.angle_deg, 90);
-    EXPECT_EQ(rig.card.state().heads[0].transform.offset.x, 1000);
+    EXPECT_DOUBLE_EQ(rig.card.state().transforms.heads[0].transform.angle_deg, 90);
+    EXPECT_EQ(rig.card.state().transforms.heads[0].transform.offset.x, 1000);
     rig.card.set_mcbsp_matrix();
     rig.card.receive(static_cast<std::uint32_t>(-(1 << 23)) << 2 | 2);  // M21 = -0.5
     rig.run(1);
     ASSERT_TRUE(rig.card.apply_mcbsp(4, 1));
-    EXPECT_EQ(rig.card.state().global.matrix[2], -0.5);
+    EXPECT_EQ(rig.card.state().transforms.global.matrix[2], -0.5);
 }
 
 TEST(Rtc5Fly, TheRotaryCorrectionTurnsCounterClockwiseAboutItsCentre) {
