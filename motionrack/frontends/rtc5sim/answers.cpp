@@ -191,8 +191,8 @@ void n_read_encoder(UINT CardNo, long* Encoder0_1, long* Encoder1_1, long* Encod
 
 void n_get_fly_2d_offset(UINT CardNo, long* OffsetX, long* OffsetY) {
     ask_two(__func__, CardNo, OffsetX, OffsetY, [&](Card& card) {
-        *OffsetX = static_cast<long>(card.engine.state().fly_2d_offset.x);
-        *OffsetY = static_cast<long>(card.engine.state().fly_2d_offset.y);
+        *OffsetX = static_cast<long>(card.engine.state().fly.offset_2d.x);
+        *OffsetY = static_cast<long>(card.engine.state().fly.offset_2d.y);
     });
 }
 

@@ -12,7 +12,7 @@ void Engine::load_program_file() {
     state_.reset(settings_);
     memory_.clear();
     heads_.clear_tables();
-    fly_table_.reset();
+    fly_.load_table(nullptr);
     laser_.switch_off();
 }
 
@@ -26,7 +26,7 @@ void Engine::stop(std::uint32_t cause) {
     State& s = state_;
     list_.stop();
     s.activity = {};
-    leave_fly();
+    s.p = fly_.leave(s.p, heads_.global());
     s.starts.waiting = s.starts.triggers = s.starts.asked_count = 0;
     s.starts.queue = s.starts.asked = {};
     laser_.switch_off();
@@ -75,13 +75,6 @@ void Engine::set_mark_speed(double bits_ms) {
     if (std::isfinite(bits_ms)) state_.mark_speed = clipped(bits_ms, Kind::speed);
 }
 
-Result<void> Engine::set_rot_center(Point centre) {
-    MOTIONRACK_CHECK(check_parameter("set_rot_center", "X", centre.x, Kind::centre));
-    MOTIONRACK_CHECK(check_parameter("set_rot_center", "Y", centre.y, Kind::centre));
-    state_.rot_center = centre;
-    return {};
-}
-
 Result<void> Engine::set_ext_start_delay(std::int32_t delay, int encoder) {
     if (encoder < 0 || encoder >= encoder_count)
         return fail(ErrorKind::refused,
@@ -89,11 +82,6 @@ Result<void> Engine::set_ext_start_delay(std::int32_t delay, int encoder) {
     state_.starts.delay = delay;
     state_.starts.encoder = encoder;
     return {};
-}
-
-void Engine::init_fly_2d(std::int32_t offset_x, std::int32_t offset_y) {
-    for (std::size_t e = 0; e < encoder_count; ++e) encoders_.zero(e);
-    state_.fly_2d_offset = {static_cast<double>(offset_x), static_cast<double>(offset_y)};
 }
 
 void Engine::encoder_sequence_error(int encoder) {
@@ -109,58 +97,6 @@ std::uint32_t Engine::get_startstop_info() {
     const std::uint32_t out = startstop_info();
     flags_.clear_startstop_info();
     return out;
-}
-
-Result<void> Engine::set_mcbsp_in(int mode, double scale) {
-    MOTIONRACK_CHECK(list_command(Op::set_mcbsp_in_list, {static_cast<double>(mode), scale}));
-    mcbsp_in(mode, scale);
-    return {};
-}
-
-Result<void> Engine::set_multi_mcbsp_in(int port, std::int64_t factor, int mode) {
-    MOTIONRACK_CHECK(list_command(Op::set_multi_mcbsp_in_list,
-                                  {static_cast<double>(port), static_cast<double>(factor), static_cast<double>(mode)}));
-    mcbsp_.begin_typed_words(port, factor, mode);
-    state_.fly = Fly{FlyKind::multi, 1, 1};
-    state_.fly.scale_x = state_.fly.scale_y = 1;
-    return {};
-}
-
-Result<void> Engine::set_mcbsp_online(double scale_x, double scale_y, double resolution) {
-    if (!std::isfinite(scale_x) || !std::isfinite(scale_y) || !std::isfinite(resolution))
-        return fail(ErrorKind::refused, "set_mcbsp_x, _y, _rot: a scale is not a number; nothing was changed");
-    const FlyKind kind = state_.fly.kind;
-    const bool by_words = kind == FlyKind::mcbsp || kind == FlyKind::mcbsp_rot || kind == FlyKind::multi;
-    if (mcbsp_.begin_positioning(scale_x, scale_y, resolution) && by_words) state_.fly = {};
-    return {};
-}
-
-Result<void> Engine::set_mcbsp_x(double scale) {
-    MOTIONRACK_CHECK(list_command(Op::set_mcbsp_x_list, {scale}));
-    set_online(0, scale);
-    return {};
-}
-Result<void> Engine::set_mcbsp_y(double scale) {
-    MOTIONRACK_CHECK(list_command(Op::set_mcbsp_y_list, {scale}));
-    set_online(1, scale);
-    return {};
-}
-Result<void> Engine::set_mcbsp_rot(double resolution) {
-    MOTIONRACK_CHECK(list_command(Op::set_mcbsp_rot_list, {resolution}));
-    set_online(2, resolution);
-    return {};
-}
-
-/// Sets X (0), Y (1) or the angle (2); the others are kept.
-void Engine::set_online(std::size_t which, double value) {
-    std::array<double, 3> all = mcbsp_.positioning_scales();
-    all[which] = value;
-    static_cast<void>(set_mcbsp_online(all[0], all[1], all[2]));
-}
-
-void Engine::set_mcbsp_matrix() {
-    static_cast<void>(set_mcbsp_online(1, 0, 0));
-    mcbsp_.position_by_matrix();
 }
 
 }  // namespace motionrack::rtc5

@@ -175,7 +175,7 @@ constexpr ControlCommand commands[] = {
      },
      "zeroes both encoders; these values are added to their counts in 2D corrections", manual_185},
     {"get_fly_2d_offset", {}, 2, true, true, or_wrong,
-     [](Engine& e, Numbers) { return answer({wide(e.state().fly_2d_offset.x), wide(e.state().fly_2d_offset.y)}); },
+     [](Engine& e, Numbers) { return answer({wide(e.state().fly.offset_2d.x), wide(e.state().fly.offset_2d.y)}); },
      "(OffsetX, OffsetY) of init_fly_2d, counts", manual_185},
     {"set_encoder_speed_ctrl", {{up_to("EncoderNo", 3), scale("Speed", "counts/ms"), {"Smooth", 0, 1, "", false}}}, 0,
      true, false, or_wrong,

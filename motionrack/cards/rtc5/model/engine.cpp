@@ -154,7 +154,7 @@ bool Engine::skip(std::int64_t limit) {
     const bool still = s.lists.paused || a.kind == ActivityKind::none || a.kind == ActivityKind::hold;
     const bool moves = !s.lists.paused && (a.kind == ActivityKind::line || a.kind == ActivityKind::arc);
     if (connections_.inputs != nullptr) {
-        if (s.fly.on() || (!still && !moves)) return false;
+        if (fly_.on() || (!still && !moves)) return false;
         limit = std::min<std::int64_t>(limit, 1 << 20);
     }
     std::int64_t n = limit;
@@ -166,8 +166,10 @@ bool Engine::skip(std::int64_t limit) {
         if (n < 0) return false;
         if (n > limit) n = limit, over = false;
     }
-    if (s.fly.on()) {
-        const std::optional<PlanExtent> extent = steady_extent(a, n);
+    if (fly_.on()) {
+        const bool known = heads_.global().neutral && connections_.inputs == nullptr;
+        const bool line = a.kind == ActivityKind::line && !s.lists.paused;
+        const auto extent = known ? fly_.steady_extent(a, line, s.p, n) : std::nullopt;
         if (!extent) return false;
         extent_.take(*extent);
     }
@@ -191,7 +193,7 @@ void Engine::advance(std::int64_t n) {
 
 void Engine::copy_beside_state(const Engine& other) {
     heads_.copy_tables(other.heads_);
-    fly_table_ = other.fly_table_;
+    fly_.copy_table(other.fly_);
     const Recording& r = state_.recording;
     std::ranges::copy(other.recorded_.span().first(static_cast<std::size_t>(r.count * r.channels)),
                       recorded_.span().begin());

@@ -13,7 +13,7 @@
 #include <motionrack/cards/rtc5/model/block_buffers.hpp>
 #include <motionrack/cards/rtc5/model/connections.hpp>
 #include <motionrack/cards/rtc5/model/correction.hpp>
-#include <motionrack/cards/rtc5/model/fly_table.hpp>
+#include <motionrack/cards/rtc5/model/fly_correction.hpp>
 #include <motionrack/cards/rtc5/model/head_transforms.hpp>
 #include <motionrack/cards/rtc5/model/input_wait.hpp>
 #include <motionrack/cards/rtc5/model/kernels.hpp>
@@ -90,7 +90,7 @@ class Engine {
     Result<void> set_angle(int head, double degrees, int at_once) { return heads_.set_angle(head, degrees, at_once); }
     Result<void> set_scale(int head, double scale, int at_once) { return heads_.set_scale(head, scale, at_once); }
     Result<void> set_hi(int head, Point gain, Point offset) { return heads_.set_hi(head, gain, offset); }
-    Result<void> set_rot_center(Point centre);
+    Result<void> set_rot_center(Point centre) { return fly_.set_rot_center(centre); }
     Result<void> simulate_encoder(int which) { return encoders_.simulate(which); }
     void set_tracking_error(std::uint16_t x, std::uint16_t y) { encoders_.set_tracking_error(x, y); }
     void set_control_mode(std::uint32_t mode) { state_.control_mode = mode; }
@@ -99,21 +99,25 @@ class Engine {
     Result<void> set_encoder_speed(int encoder, double counts_ms, double smooth) {
         return encoders_.watch_speed(encoder, counts_ms, smooth);
     }
-    void load_fly_2d_table(std::shared_ptr<const FlyTable> table) { fly_table_ = std::move(table); }
+    void load_fly_2d_table(std::shared_ptr<const FlyTable> table) { fly_.load_table(std::move(table)); }
     /// Copies the data that State does not contain from the card whose state was copied: tables and recorded samples.
     void copy_beside_state(const Engine& other);
-    void init_fly_2d(std::int32_t offset_x, std::int32_t offset_y);
-    Result<void> set_mcbsp_in(int mode, double scale);
+    void init_fly_2d(std::int32_t offset_x, std::int32_t offset_y) { fly_.zero_2d(offset_x, offset_y); }
+    Result<void> set_mcbsp_in(int mode, double scale) { return fly_.set_mcbsp_in(mode, scale); }
     /// Words carry their type; words of type 3 are the laser's power (see multi_power).
-    Result<void> set_multi_mcbsp_in(int port, std::int64_t factor, int mode);
+    Result<void> set_multi_mcbsp_in(int port, std::int64_t factor, int mode) {
+        return fly_.set_multi_mcbsp_in(port, factor, mode);
+    }
     /// Online positioning: scale 0 and a resolution below 100 disable it.
-    Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution);
+    Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution) {
+        return fly_.set_mcbsp_online(scale_x, scale_y, resolution);
+    }
     /// Sets one of the three; the others are kept.
-    Result<void> set_mcbsp_x(double scale);
-    Result<void> set_mcbsp_y(double scale);
-    Result<void> set_mcbsp_rot(double resolution);
+    Result<void> set_mcbsp_x(double scale) { return fly_.set_mcbsp_x(scale); }
+    Result<void> set_mcbsp_y(double scale) { return fly_.set_mcbsp_y(scale); }
+    Result<void> set_mcbsp_rot(double resolution) { return fly_.set_mcbsp_rot(resolution); }
     /// Online positioning of matrix coefficients: words of (M * 2^24) * 4 + 2 i + j, |M| < 32.
-    void set_mcbsp_matrix();
+    void set_mcbsp_matrix() { fly_.set_mcbsp_matrix(); }
     Result<void> apply_mcbsp(int head, int at_once) { return heads_.apply(mcbsp_, head, at_once); }
     /// The present word, also copied to location 0. Errors: refused if none has been received.
     Result<std::int32_t> get_mcbsp() { return mcbsp_.store_now(); }
@@ -215,20 +219,12 @@ class Engine {
     Point direction_of(const Command& mark) const;
     Point target_of(const Command& c, bool relative) const;
 
-    // fly.cpp: commands of the pipeline
+    // list_commands.cpp
     void pipeline_command(const Command& c);
     bool fly_command(const Command& c);
-    void set_fly(const Command& c);
-    void mcbsp_in(int mode, double scale);
     void control_command(const Command& c);
-    void be_kind(FlyKind kind);
-    void settle_kind();
-    void turn(FlyKind kind, double resolution);
     bool empty_cycle(std::initializer_list<std::size_t> encoders);
     void park(const Command& c);
-    void leave_fly();
-    Point fly_of(Point p, bool backwards) const;
-    void move_by_fly(bool backwards);
     void wait(const Command& c);
 
     // starts.cpp
@@ -243,12 +239,8 @@ class Engine {
 
     // pipeline.cpp
     void run_pipeline(std::size_t n, Sink* sink);
-    void apply_fly(std::size_t n);
-    void check_z(std::size_t n);
-    double z_now() const;
     void keep_output(std::size_t n);
     void evaluate();
-    std::optional<PlanExtent> steady_extent(const Activity& a, std::int64_t n) const;
 
     // recording.cpp
     void set_trigger(const Command& c, std::int64_t tick);
@@ -257,27 +249,24 @@ class Engine {
     void record();
     std::int32_t value_of(const SignalInfo& signal) const;
 
-    void set_online(std::size_t which, double value);
-
     Settings settings_;
     State state_;
     Connections connections_;
     ZeroedArray<std::int32_t> recorded_{record_values};
     NotDue not_due_;
-    std::shared_ptr<const FlyTable> fly_table_;
     std::unique_ptr<BlockBuffers> buffers_ = std::make_unique<BlockBuffers>();
     StatusFlags flags_{state_.flags, state_.limits};
     ListMemory memory_{state_.lists, state_.memory_hash, settings_};
     ListExecution list_{state_.lists, flags_, connections_};
     BeltEncoders encoders_{state_.encoders, state_.tick, connections_, *buffers_};
-    McBspReceiver mcbsp_{state_.mcbsp, state_.fly, state_.tick, connections_, *buffers_};
+    McBspReceiver mcbsp_{state_.mcbsp, state_.fly.now, state_.tick, connections_, *buffers_};
     InputWait wait_{state_.activity, encoders_, mcbsp_, *buffers_};
     HeadTransforms heads_{state_.transforms, *buffers_};
+    FlyCorrection fly_{state_.fly, state_.z, state_.tick, encoders_, mcbsp_, flags_, *buffers_};
     LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
     WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
     bool until_rest_ = false;  // the run ends when the card is idle
     PlanExtent extent_;
-    double block_z_ = 0;     // Z of the block's last tick
     bool evaluated_ = true;  // the output is that of the last tick
 };
 

@@ -102,6 +102,13 @@ struct Fly {
     bool on() const { return kind != FlyKind::off; }
 };
 
+struct FlyState {
+    Fly now, paused;  ///< paused: by park_position
+    Point park_from, rot_center, offset_2d;
+    std::int64_t parked = 0;
+    bool on() const { return now.on(); }
+};
+
 /// Reason why the location of received words has no value.
 inline constexpr std::string_view no_word_yet = "no word was received over McBSP yet; let the sender send one first";
 
@@ -238,9 +245,7 @@ struct State {
     double jump_speed = 1000, mark_speed = 1000;
     Delays delays;
     EncodersState encoders;
-    Fly fly, paused_fly;
-    Point park_from, rot_center, fly_2d_offset;
-    std::int64_t parked = 0;
+    FlyState fly;
     FlyLimits limits{-8388608, 8388607, -8388608, 8388607, -8388608, 8388607};
     McBsp mcbsp;
     Laser laser;

@@ -290,8 +290,8 @@ Did by_card(const Row* control, const Row* in_list) {
                    card.read_encoder(0)[1], card.read_encoder(1)[0], card.read_encoder(1)[1]};
     for (int i = 0; i < 4; ++i) did.answers.push_back(card.read_mcbsp(i).value_or(0));
     for (int i = 0; i < 8; ++i) did.answers.push_back(card.read_multi_mcbsp(i));
-    did.answers.push_back(static_cast<std::int64_t>(card.state().fly_2d_offset.x));
-    did.answers.push_back(static_cast<std::int64_t>(card.state().fly_2d_offset.y));
+    did.answers.push_back(static_cast<std::int64_t>(card.state().fly.offset_2d.x));
+    did.answers.push_back(static_cast<std::int64_t>(card.state().fly.offset_2d.y));
     did.answers.push_back(card.state().lists.input_end - card.input_pointer());
     did.answers.push_back(card.list_status());
     for (const rtc5::SignalInfo& signal : rtc5::map::signals)

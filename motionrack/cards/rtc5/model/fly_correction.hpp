@@ -1,0 +1,88 @@
+// The correction for the motion of the part (processing on the fly), by encoder counts or McBSP words.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <motionrack/cards/rtc5/model/belt_encoders.hpp>
+#include <motionrack/cards/rtc5/model/fly_table.hpp>
+#include <motionrack/cards/rtc5/model/mcbsp_receiver.hpp>
+#include <motionrack/cards/rtc5/model/status_flags.hpp>
+#include <optional>
+
+namespace motionrack::rtc5 {
+
+class FlyCorrection {
+  public:
+    /// `state`, `z` (before the correction) and `tick`: parts of the card's state.
+    FlyCorrection(FlyState& state, double& z, const std::int64_t& tick, BeltEncoders& encoders, McBspReceiver& mcbsp,
+                  StatusFlags& flags, BlockBuffers& buffers)
+        : state_(state), z_(z), tick_(tick), encoders_(encoders), mcbsp_(mcbsp), flags_(flags), buffers_(buffers) {}
+
+    bool on() const { return state_.now.on(); }
+
+    // ---- commands
+    /// set_fly_x and the like, except fly_return.
+    void take(const Command& c);
+    Result<void> set_mcbsp_in(int mode, double scale);
+    /// The same with parameters that are known to be valid.
+    void correct_axes(int mode, double scale);
+    Result<void> set_multi_mcbsp_in(int port, std::int64_t factor, int mode);
+    Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution);
+    Result<void> set_mcbsp_x(double scale);
+    Result<void> set_mcbsp_y(double scale);
+    Result<void> set_mcbsp_rot(double resolution);
+    /// Online positioning: sets X (0), Y (1) or the angle (2); the others are kept.
+    void set_online(std::size_t which, double value);
+    void set_mcbsp_matrix();
+    Result<void> set_rot_center(Point centre);
+    void turn_about(Point centre) { state_.rot_center = centre; }
+    /// init_fly_2d
+    void zero_2d(std::int32_t offset_x, std::int32_t offset_y);
+    void set_z(double z) { z_ = z; }
+
+    // ---- the table of the 2D correction, which is not part of the state
+    void load_table(std::shared_ptr<const FlyTable> table) { table_ = std::move(table); }
+    void copy_table(const FlyCorrection& other) { table_ = other.table_; }
+
+    // ---- the position p before the correction, at changes of the correction; each returns the new one
+    /// Switches the correction off; p takes it over.
+    Point leave(Point p, const Transform& global);
+    /// park_position; `pause`: the correction pauses meanwhile.
+    Point park(Point p, const Transform& global, bool pause);
+    /// Goes on after park().
+    Point end_parking(Point p, const Transform& global);
+    Point park_from() const { return state_.park_from; }
+
+    // ---- running
+    /// Corrects the positions x and y of n ticks.
+    void apply(std::size_t n);
+    /// Raises the flags of n corrected ticks. Returns their extent.
+    PlanExtent check(std::size_t n);
+    /// Extent of n ticks of the activity, if it is far enough inside field and limits that no flag can be set. `moves`:
+    /// the activity runs; else the position stays at p.
+    std::optional<PlanExtent> steady_extent(const Activity& a, bool moves, Point p, std::int64_t n) const;
+    /// Z of the last of n ticks that were executed.
+    double output_z(std::size_t n) const;
+
+  private:
+    void be_kind(FlyKind kind);
+    void settle_kind();
+    void turn(FlyKind kind, double resolution);
+    void check_z(std::size_t n);
+    double z_now() const;
+    Point shifted(Point p, bool backwards) const;
+    Point moved(Point p, const Transform& global, bool backwards) const;
+
+    FlyState& state_;
+    double& z_;
+    const std::int64_t& tick_;
+    BeltEncoders& encoders_;
+    McBspReceiver& mcbsp_;
+    StatusFlags& flags_;
+    BlockBuffers& buffers_;
+    std::shared_ptr<const FlyTable> table_;
+    double block_z_ = 0;  // Z of the block's last tick
+};
+
+}  // namespace motionrack::rtc5
