@@ -30,7 +30,7 @@ void Engine::stop(std::uint32_t cause) {
     s.starts.waiting = s.starts.triggers = s.starts.asked_count = 0;
     s.starts.queue = s.starts.asked = {};
     laser_.switch_off();
-    s.recording.period = 0;
+    recorder_.stop();
     flags_.raise_startstop(cause);
 }
 

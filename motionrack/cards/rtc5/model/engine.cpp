@@ -49,8 +49,8 @@ void Engine::piece(std::int64_t end, Sink* sink) {
     begin_tick();
     std::int64_t limit = end - state_.tick;
     if (state_.starts.waiting > 0) limit = ticks_to_start(limit);
-    limit = std::min(limit, std::max<std::int64_t>(1, ticks_to_sample()));
-    if (sink == nullptr && ticks_to_sample() > 0 && skip(limit)) return;
+    limit = std::min(limit, std::max<std::int64_t>(1, recorder_.ticks_to_sample()));
+    if (sink == nullptr && recorder_.ticks_to_sample() > 0 && skip(limit)) return;
     const std::size_t n = produce(static_cast<std::size_t>(std::min<std::int64_t>(limit, block)));
     run_pipeline(n, sink);
     advance(static_cast<std::int64_t>(n));
@@ -68,7 +68,7 @@ std::size_t Engine::produce(std::size_t capacity) {
             return capacity;
         }
         if (!next_step(n)) break;
-        if (n == 0 && (state_.starts.asked_count > 0 || samples_now())) capacity = 1;
+        if (n == 0 && (state_.starts.asked_count > 0 || recorder_.samples_now())) capacity = 1;
         // The last tick is executed even without observers.
         if (state_.activity.kind == ActivityKind::none && until_rest_) capacity = n + 1;
         n = fill(n, capacity);
@@ -148,7 +148,8 @@ std::size_t Engine::fill(std::size_t n, std::size_t capacity) {
 bool Engine::skip(std::int64_t limit) {
     State& s = state_;
     if (!s.lists.paused) next_step(0);
-    if (encoders_.speed_watched() || mcbsp_.words_have_types() || samples_now() || wobbel_.active()) return false;
+    if (encoders_.speed_watched() || mcbsp_.words_have_types() || recorder_.samples_now() || wobbel_.active())
+        return false;
     if (s.starts.asked_count > 0) limit = 1;
     Activity& a = s.activity;
     const bool still = s.lists.paused || a.kind == ActivityKind::none || a.kind == ActivityKind::hold;
@@ -194,9 +195,7 @@ void Engine::advance(std::int64_t n) {
 void Engine::copy_beside_state(const Engine& other) {
     heads_.copy_tables(other.heads_);
     fly_.copy_table(other.fly_);
-    const Recording& r = state_.recording;
-    std::ranges::copy(other.recorded_.span().first(static_cast<std::size_t>(r.count * r.channels)),
-                      recorded_.span().begin());
+    recorder_.copy_samples(other.recorder_);
 }
 
 }  // namespace motionrack::rtc5

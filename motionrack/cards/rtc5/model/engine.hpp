@@ -23,6 +23,7 @@
 #include <motionrack/cards/rtc5/model/mcbsp_receiver.hpp>
 #include <motionrack/cards/rtc5/model/not_due.hpp>
 #include <motionrack/cards/rtc5/model/settings.hpp>
+#include <motionrack/cards/rtc5/model/signal_recorder.hpp>
 #include <motionrack/cards/rtc5/model/state.hpp>
 #include <motionrack/cards/rtc5/model/status_flags.hpp>
 #include <motionrack/cards/rtc5/model/wobbel_motion.hpp>
@@ -122,12 +123,12 @@ class Engine {
     /// The present word, also copied to location 0. Errors: refused if none has been received.
     Result<std::int32_t> get_mcbsp() { return mcbsp_.store_now(); }
     /// Signals that are sent from the next tick on, one per tick, in turn; none: sending ends. At most 8.
-    Result<void> set_mcbsp_out(std::span<const std::uint32_t> signals);
+    Result<void> set_mcbsp_out(std::span<const std::uint32_t> signals) { return recorder_.send(signals); }
     /// Disabling switches the laser off and blocks it until it is enabled again.
     void enable_laser() { laser_.enable(); }
     void disable_laser() { laser_.disable(); }
     /// Ends a recording; its samples are kept.
-    void stop_trigger() { state_.recording.period = 0; }
+    void stop_trigger() { recorder_.stop(); }
 
     // ---- external inputs
     void external_start() { ++state_.starts.triggers; }
@@ -171,14 +172,12 @@ class Engine {
     /// The same without clearing.
     std::uint32_t startstop_info() const;
     /// Value of a signal in the last tick.
-    Result<std::int32_t> get_value(std::uint32_t signal) const;
+    Result<std::int32_t> get_value(std::uint32_t signal) const { return recorder_.value(signal); }
     /// The word sent in the last tick; 0 while sending is off.
-    std::int32_t mcbsp_sent() const;
-    const Recording& recording() const { return state_.recording; }
+    std::int32_t mcbsp_sent() const { return recorder_.sent(); }
+    const Recording& recording() const { return recorder_.recording(); }
     /// Sample `i` of `channel` (0 ..) of the recording.
-    std::int32_t recorded(std::int64_t channel, std::int64_t i) const {
-        return recorded_[static_cast<std::size_t>(i * state_.recording.channels + channel)];
-    }
+    std::int32_t recorded(std::int64_t channel, std::int64_t i) const { return recorder_.recorded(channel, i); }
     /// Counts/ms after the filters; 0 while not watched.
     double encoder_speed() const { return encoders_.speed(); }
     /// x, y of head A in the last tick.
@@ -242,17 +241,9 @@ class Engine {
     void keep_output(std::size_t n);
     void evaluate();
 
-    // recording.cpp
-    void set_trigger(const Command& c, std::int64_t tick);
-    std::int64_t ticks_to_sample() const;
-    bool samples_now() const;
-    void record();
-    std::int32_t value_of(const SignalInfo& signal) const;
-
     Settings settings_;
     State state_;
     Connections connections_;
-    ZeroedArray<std::int32_t> recorded_{record_values};
     NotDue not_due_;
     std::unique_ptr<BlockBuffers> buffers_ = std::make_unique<BlockBuffers>();
     StatusFlags flags_{state_.flags, state_.limits};
@@ -263,6 +254,7 @@ class Engine {
     InputWait wait_{state_.activity, encoders_, mcbsp_, *buffers_};
     HeadTransforms heads_{state_.transforms, *buffers_};
     FlyCorrection fly_{state_.fly, state_.z, state_.tick, encoders_, mcbsp_, flags_, *buffers_};
+    SignalRecorder recorder_{state_.recording, state_.sender, state_, heads_};
     LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
     WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
     bool until_rest_ = false;  // the run ends when the card is idle

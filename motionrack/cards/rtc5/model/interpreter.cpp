@@ -225,7 +225,7 @@ void Engine::take(const Command& c, std::int64_t tick) {
             return;
         case Op::set_trigger:
         case Op::set_trigger4:
-            set_trigger(c, tick);
+            recorder_.begin(c, tick);
             return c.op == Op::set_trigger4 ? begin_hold(1) : void();
         default:
             break;

@@ -11,7 +11,7 @@ void Engine::run_pipeline(std::size_t n, Sink* sink) {
         fly_.apply(n);
         extent_.take(fly_.check(n));
     }
-    const bool recorded = samples_now();
+    const bool recorded = recorder_.samples_now();
     if (sink == nullptr && !recorded) {
         evaluated_ = false;
         return;
@@ -20,7 +20,7 @@ void Engine::run_pipeline(std::size_t n, Sink* sink) {
     const bool second = heads_.second_head();
     if (second) heads_.run_head(1, n);
     keep_output(n);
-    if (recorded) record();
+    if (recorded) recorder_.record();
     if (sink == nullptr) return;
     const auto ints = [&](std::size_t i) { return std::span<const std::int32_t>(b.out[i].data(), n); };
     sink->samples({state_.tick, ints(0), ints(1), second ? ints(2) : std::span<const std::int32_t>{},

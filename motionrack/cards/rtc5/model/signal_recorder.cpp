@@ -1,10 +1,10 @@
-// Recording of signals, and their transmission over McBSP.
+// Values of signals, recorded and sent.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <motionrack/cards/rtc5/model/engine.hpp>
+#include <motionrack/cards/rtc5/model/signal_recorder.hpp>
 
 namespace motionrack::rtc5 {
 
@@ -16,9 +16,8 @@ std::int32_t whole(double v) {
 
 }  // namespace
 
-/// set_trigger and set_trigger4.
-void Engine::set_trigger(const Command& c, std::int64_t tick) {
-    Recording& r = state_.recording;
+void SignalRecorder::begin(const Command& c, std::int64_t tick) {
+    Recording& r = recording_;
     r.period = static_cast<std::int64_t>(c.p[0]);
     if (r.period == 0) return;
     r.channels = c.op == Op::set_trigger ? 2 : record_channels;
@@ -28,39 +27,32 @@ void Engine::set_trigger(const Command& c, std::int64_t tick) {
     if (c.op == Op::set_trigger4) r.signals[2] = static_cast<std::int64_t>(c.p[3]), r.signals[3] = c.head;
 }
 
-/// Ticks to the next sample if the list continues to run; 0: the present tick.
-std::int64_t Engine::ticks_to_sample() const {
-    const Recording& r = state_.recording;
-    if (r.period == 0 || !state_.lists.running || state_.lists.paused) return std::numeric_limits<std::int64_t>::max();
-    const std::int64_t over = (state_.tick - r.first) % r.period;
+std::int64_t SignalRecorder::ticks_to_sample() const {
+    const Recording& r = recording_;
+    if (r.period == 0 || !card_.lists.running || card_.lists.paused) return std::numeric_limits<std::int64_t>::max();
+    const std::int64_t over = (card_.tick - r.first) % r.period;
     return over == 0 ? 0 : r.period - over;
 }
 
-/// True if the present tick has a sample; called after its commands.
-bool Engine::samples_now() const {
-    return ticks_to_sample() == 0;
-}
-
-/// Records the present tick; requires its output.
-void Engine::record() {
-    Recording& r = state_.recording;
-    std::int32_t* const to = &recorded_[static_cast<std::size_t>(r.count * r.channels)];
+void SignalRecorder::record() {
+    Recording& r = recording_;
+    std::int32_t* const to = &samples_[static_cast<std::size_t>(r.count * r.channels)];
     for (std::size_t i = 0; i < static_cast<std::size_t>(r.channels); ++i) to[i] = value_of(*signal_info(r.signals[i]));
     if (++r.count == record_values / r.channels) r.period = 0;
 }
 
-std::int32_t Engine::value_of(const SignalInfo& s) const {
-    if (s.laser_only && !state_.laser.on) return whole(min_field);
+std::int32_t SignalRecorder::value_of(const SignalInfo& s) const {
+    if (s.laser_only && !card_.laser.on) return whole(min_field);
     const Head& head = heads_.head(s.head);
     const bool no_head = s.head == 1 && head.table == 0;
-    Point p = state_.output.corrected;
+    Point p = card_.output.corrected;
     switch (s.source) {
         case SignalSource::laser:
-            return state_.laser.on != 0;
+            return card_.laser.on != 0;
         case SignalSource::corrected:
             return whole(s.axis == 0 ? p.x : p.y);
         case SignalSource::z:
-            return whole(state_.output.z);
+            return whole(card_.output.z);
         case SignalSource::transformed:
         case SignalSource::table: {
             if (no_head) return 0;
@@ -71,25 +63,25 @@ std::int32_t Engine::value_of(const SignalInfo& s) const {
             return out[s.axis];
         }
         case SignalSource::output:
-            return (s.head == 0 ? state_.output.a : state_.output.b)[s.axis];
+            return (s.head == 0 ? card_.output.a : card_.output.b)[s.axis];
         case SignalSource::io:
-            return static_cast<std::int32_t>(state_.io);
+            return static_cast<std::int32_t>(card_.io);
         case SignalSource::count:
-            return encoder(s.head);
+            return card_.encoders.counters[s.head].count();
         case SignalSource::mark_speed:
-            return whole(state_.mark_speed);
+            return whole(card_.mark_speed);
     }
     return 0;
 }
 
-Result<std::int32_t> Engine::get_value(std::uint32_t signal) const {
+Result<std::int32_t> SignalRecorder::value(std::uint32_t signal) const {
     if (const SignalInfo* const info = signal_info(signal)) return value_of(*info);
     return fail(ErrorKind::refused,
                 fmt::format("get_value: the card has no signal of the number {}; nothing was read", signal));
 }
 
-Result<void> Engine::set_mcbsp_out(std::span<const std::uint32_t> signals) {
-    Sender sender{static_cast<std::int64_t>(signals.size()), state_.tick};
+Result<void> SignalRecorder::send(std::span<const std::uint32_t> signals) {
+    Sender sender{static_cast<std::int64_t>(signals.size()), card_.tick};
     if (signals.size() > sender.signals.size())
         return fail(ErrorKind::refused,
                     fmt::format("set_mcbsp_out: {} signals; at most {} are possible; nothing was changed",
@@ -101,15 +93,20 @@ Result<void> Engine::set_mcbsp_out(std::span<const std::uint32_t> signals) {
                 fmt::format("set_mcbsp_out: the card has no signal of the number {}; nothing was changed", signals[i]));
         sender.signals[i] = signals[i];
     }
-    state_.sender = sender;
+    sender_ = sender;
     return {};
 }
 
-std::int32_t Engine::mcbsp_sent() const {
-    const Sender& s = state_.sender;
-    const std::int64_t ticks = state_.tick - s.first;
+std::int32_t SignalRecorder::sent() const {
+    const Sender& s = sender_;
+    const std::int64_t ticks = card_.tick - s.first;
     if (s.count == 0 || ticks == 0) return 0;
     return value_of(*signal_info(s.signals[static_cast<std::size_t>((ticks - 1) % s.count)]));
+}
+
+void SignalRecorder::copy_samples(const SignalRecorder& other) {
+    const auto count = static_cast<std::size_t>(recording_.count * recording_.channels);
+    std::ranges::copy(other.samples_.span().first(count), samples_.span().begin());
 }
 
 }  // namespace motionrack::rtc5
