@@ -27,8 +27,7 @@ void Engine::stop(std::uint32_t cause) {
     list_.stop();
     s.activity = {};
     s.p = fly_.leave(s.p, heads_.global());
-    s.starts.waiting = s.starts.triggers = s.starts.asked_count = 0;
-    s.starts.queue = s.starts.asked = {};
+    starts_.stop();
     laser_.switch_off();
     recorder_.stop();
     flags_.raise_startstop(cause);
@@ -79,8 +78,7 @@ Result<void> Engine::set_ext_start_delay(std::int32_t delay, int encoder) {
     if (encoder < 0 || encoder >= encoder_count)
         return fail(ErrorKind::refused,
                     fmt::format("set_ext_start_delay: encoder {} must be 0 or 1. Nothing was changed", encoder));
-    state_.starts.delay = delay;
-    state_.starts.encoder = encoder;
+    starts_.set_delay(delay, encoder);
     return {};
 }
 

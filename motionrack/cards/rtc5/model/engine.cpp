@@ -20,8 +20,7 @@ void Engine::run_until(std::int64_t tick, Sink* sink) {
 
 bool Engine::at_rest() const {
     const Lists& l = state_.lists;
-    return l.running == 0 && state_.activity.kind == ActivityKind::none && state_.starts.waiting == 0 &&
-           state_.starts.triggers == 0 && state_.starts.asked_count == 0 && state_.laser.count == 0;
+    return l.running == 0 && state_.activity.kind == ActivityKind::none && starts_.at_rest() && state_.laser.count == 0;
 }
 
 bool Engine::run_to_rest(std::int64_t ticks, Sink* sink) {
@@ -41,14 +40,14 @@ void Engine::begin_tick() {
     laser_.begin_tick();
     encoders_.sample();
     mcbsp_.sample();
-    take_move_starts();
+    starts_.take();
 }
 
 /// At least a tick, at most to `end`.
 void Engine::piece(std::int64_t end, Sink* sink) {
     begin_tick();
     std::int64_t limit = end - state_.tick;
-    if (state_.starts.waiting > 0) limit = ticks_to_start(limit);
+    if (starts_.waiting()) limit = starts_.ticks_to_start(limit);
     limit = std::min(limit, std::max<std::int64_t>(1, recorder_.ticks_to_sample()));
     if (sink == nullptr && recorder_.ticks_to_sample() > 0 && skip(limit)) return;
     const std::size_t n = produce(static_cast<std::size_t>(std::min<std::int64_t>(limit, block)));
@@ -68,7 +67,7 @@ std::size_t Engine::produce(std::size_t capacity) {
             return capacity;
         }
         if (!next_step(n)) break;
-        if (n == 0 && (state_.starts.asked_count > 0 || recorder_.samples_now())) capacity = 1;
+        if (n == 0 && (starts_.asked() || recorder_.samples_now())) capacity = 1;
         // The last tick is executed even without observers.
         if (state_.activity.kind == ActivityKind::none && until_rest_) capacity = n + 1;
         n = fill(n, capacity);
@@ -150,7 +149,7 @@ bool Engine::skip(std::int64_t limit) {
     if (!s.lists.paused) next_step(0);
     if (encoders_.speed_watched() || mcbsp_.words_have_types() || recorder_.samples_now() || wobbel_.active())
         return false;
-    if (s.starts.asked_count > 0) limit = 1;
+    if (starts_.asked()) limit = 1;
     Activity& a = s.activity;
     const bool still = s.lists.paused || a.kind == ActivityKind::none || a.kind == ActivityKind::hold;
     const bool moves = !s.lists.paused && (a.kind == ActivityKind::line || a.kind == ActivityKind::arc);

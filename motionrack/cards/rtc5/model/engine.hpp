@@ -13,6 +13,7 @@
 #include <motionrack/cards/rtc5/model/block_buffers.hpp>
 #include <motionrack/cards/rtc5/model/connections.hpp>
 #include <motionrack/cards/rtc5/model/correction.hpp>
+#include <motionrack/cards/rtc5/model/external_starts.hpp>
 #include <motionrack/cards/rtc5/model/fly_correction.hpp>
 #include <motionrack/cards/rtc5/model/head_transforms.hpp>
 #include <motionrack/cards/rtc5/model/input_wait.hpp>
@@ -21,7 +22,6 @@
 #include <motionrack/cards/rtc5/model/list_execution.hpp>
 #include <motionrack/cards/rtc5/model/list_memory.hpp>
 #include <motionrack/cards/rtc5/model/mcbsp_receiver.hpp>
-#include <motionrack/cards/rtc5/model/not_due.hpp>
 #include <motionrack/cards/rtc5/model/settings.hpp>
 #include <motionrack/cards/rtc5/model/signal_recorder.hpp>
 #include <motionrack/cards/rtc5/model/state.hpp>
@@ -96,7 +96,7 @@ class Engine {
     void set_tracking_error(std::uint16_t x, std::uint16_t y) { encoders_.set_tracking_error(x, y); }
     void set_control_mode(std::uint32_t mode) { state_.control_mode = mode; }
     Result<void> set_ext_start_delay(std::int32_t delay, int encoder);
-    void set_extstartpos(std::int64_t position) { state_.starts.position = position; }
+    void set_extstartpos(std::int64_t position) { starts_.set_position(position); }
     Result<void> set_encoder_speed(int encoder, double counts_ms, double smooth) {
         return encoders_.watch_speed(encoder, counts_ms, smooth);
     }
@@ -131,14 +131,14 @@ class Engine {
     void stop_trigger() { recorder_.stop(); }
 
     // ---- external inputs
-    void external_start() { ++state_.starts.triggers; }
+    void external_start() { starts_.trigger(); }
     void external_stop() { stop(startstop_bit("EXTERNAL_STOP")); }
     void set_count(int encoder, std::int32_t counts) { encoders_.set_count(encoder, counts); }
     void receive(std::uint32_t word) { mcbsp_.receive(word); }
     /// Records a tick in which both lines of an encoder changed.
     void encoder_sequence_error(int encoder);
     /// Sets the source of inputs; nullptr: set_count and receive.
-    void set_inputs(Inputs* inputs) { connections_.inputs = inputs, not_due_.forget(); }
+    void set_inputs(Inputs* inputs) { connections_.inputs = inputs, starts_.forget_inputs(); }
     /// Sets the listener; nullptr: none.
     void set_listener(ListListener* listener) { connections_.listener = listener; }
 
@@ -226,13 +226,6 @@ class Engine {
     void park(const Command& c);
     void wait(const Command& c);
 
-    // starts.cpp
-    void take_move_starts();
-    void enqueue(std::int32_t delay, int encoder);
-    void begin_start();
-    void report_start(StartFate fate);
-    std::int64_t ticks_to_start(std::int64_t limit);
-
     // control.cpp
     void stop(std::uint32_t cause);
 
@@ -244,7 +237,6 @@ class Engine {
     Settings settings_;
     State state_;
     Connections connections_;
-    NotDue not_due_;
     std::unique_ptr<BlockBuffers> buffers_ = std::make_unique<BlockBuffers>();
     StatusFlags flags_{state_.flags, state_.limits};
     ListMemory memory_{state_.lists, state_.memory_hash, settings_};
@@ -255,6 +247,8 @@ class Engine {
     HeadTransforms heads_{state_.transforms, *buffers_};
     FlyCorrection fly_{state_.fly, state_.z, state_.tick, encoders_, mcbsp_, flags_, *buffers_};
     SignalRecorder recorder_{state_.recording, state_.sender, state_, heads_};
+    ExternalStarts starts_{state_.starts, state_.control_mode, state_.tick, encoders_, list_,
+                           flags_,        connections_,        *buffers_};
     LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
     WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
     bool until_rest_ = false;  // the run ends when the card is idle

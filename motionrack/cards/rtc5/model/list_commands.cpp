@@ -43,17 +43,11 @@ void Engine::pipeline_command(const Command& c) {
 /// Executes commands that are list forms of control commands.
 void Engine::control_command(const Command& c) {
     const auto whole = [&](std::size_t i) { return static_cast<std::int64_t>(c.p[i]); };
-    Starts& s = state_.starts;
     switch (c.op) {
         case Op::set_ext_start_delay_list:
-            s.delay = whole(0), s.encoder = whole(1);
-            return;
+            return starts_.set_delay(whole(0), whole(1));
         case Op::simulate_ext_start:
-            if (s.asked_count < start_queue)
-                s.asked[static_cast<std::size_t>(s.asked_count++)] = {0, whole(0), whole(1)};
-            else
-                flags_.raise_startstop(startstop_bit("START_LOST"));
-            return;
+            return starts_.ask(whole(0), whole(1));
         case Op::set_control_mode_list:
             state_.control_mode = whole(0);
             return;
