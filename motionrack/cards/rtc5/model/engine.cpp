@@ -14,7 +14,7 @@ Engine::Engine(const Settings& settings) : settings_(settings) {
 void Engine::run_until(std::int64_t tick, Sink* sink) {
     connections_.sink = sink;
     while (state_.tick < tick) piece(tick, sink);
-    evaluate();
+    pipeline_.evaluate();
     connections_.sink = nullptr;
 }
 
@@ -29,7 +29,7 @@ bool Engine::run_to_rest(std::int64_t ticks, Sink* sink) {
     until_rest_ = true;
     while (state_.tick < end && !at_rest()) piece(end, sink);
     until_rest_ = false;
-    evaluate();
+    pipeline_.evaluate();
     connections_.sink = nullptr;
     return at_rest();
 }
@@ -51,7 +51,8 @@ void Engine::piece(std::int64_t end, Sink* sink) {
     limit = std::min(limit, std::max<std::int64_t>(1, recorder_.ticks_to_sample()));
     if (sink == nullptr && recorder_.ticks_to_sample() > 0 && skip(limit)) return;
     const std::size_t n = produce(static_cast<std::size_t>(std::min<std::int64_t>(limit, block)));
-    run_pipeline(n, sink);
+    laser_.run_until(state_.tick + static_cast<std::int64_t>(n));
+    pipeline_.run(n, sink);
     advance(static_cast<std::int64_t>(n));
 }
 
@@ -166,19 +167,20 @@ bool Engine::skip(std::int64_t limit) {
         if (n < 0) return false;
         if (n > limit) n = limit, over = false;
     }
+    PlanExtent extent;
     if (fly_.on()) {
         const bool known = heads_.global().neutral && connections_.inputs == nullptr;
         const bool line = a.kind == ActivityKind::line && !s.lists.paused;
-        const auto extent = known ? fly_.steady_extent(a, line, s.p, n) : std::nullopt;
-        if (!extent) return false;
-        extent_.take(*extent);
+        const auto steady = known ? fly_.steady_extent(a, line, s.p, n) : std::nullopt;
+        if (!steady) return false;
+        extent = *steady;
     }
     laser_.run_until(s.tick + n);
     wobbel_.clear_offset();
     if (moves) s.p = a.position(a.done + n, s.p);
     if (moves || (a.kind == ActivityKind::hold && !s.lists.paused)) a.done += n;
     if (over) a.done = a.steps;
-    evaluated_ = false;
+    pipeline_.skip(extent);
     advance(n);
     return true;
 }

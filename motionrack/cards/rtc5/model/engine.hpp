@@ -22,6 +22,7 @@
 #include <motionrack/cards/rtc5/model/list_execution.hpp>
 #include <motionrack/cards/rtc5/model/list_memory.hpp>
 #include <motionrack/cards/rtc5/model/mcbsp_receiver.hpp>
+#include <motionrack/cards/rtc5/model/output_pipeline.hpp>
 #include <motionrack/cards/rtc5/model/settings.hpp>
 #include <motionrack/cards/rtc5/model/signal_recorder.hpp>
 #include <motionrack/cards/rtc5/model/state.hpp>
@@ -181,12 +182,12 @@ class Engine {
     /// Counts/ms after the filters; 0 while not watched.
     double encoder_speed() const { return encoders_.speed(); }
     /// x, y of head A in the last tick.
-    const HeadOutput& output() const { return state_.output; }
+    const HeadOutput& output() const { return pipeline_.output(); }
     const State& state() const { return state_; }
     /// Extent of the corrected position (before clipping) while a correction was on, since clear_extent: the margin of
     /// a job in the field. Not part of the state.
-    const PlanExtent& extent() const { return extent_; }
-    void clear_extent() { extent_ = {}; }
+    const PlanExtent& extent() const { return pipeline_.extent(); }
+    void clear_extent() { pipeline_.clear_extent(); }
     State& mutable_state() { return state_; }
     std::span<Command> memory() { return memory_.commands(); }
     const Settings& settings() const { return settings_; }
@@ -229,11 +230,6 @@ class Engine {
     // control.cpp
     void stop(std::uint32_t cause);
 
-    // pipeline.cpp
-    void run_pipeline(std::size_t n, Sink* sink);
-    void keep_output(std::size_t n);
-    void evaluate();
-
     Settings settings_;
     State state_;
     Connections connections_;
@@ -251,9 +247,8 @@ class Engine {
                            flags_,        connections_,        *buffers_};
     LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
     WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
+    OutputPipeline pipeline_{state_.output, state_.p, state_.tick, wobbel_, fly_, heads_, recorder_, *buffers_};
     bool until_rest_ = false;  // the run ends when the card is idle
-    PlanExtent extent_;
-    bool evaluated_ = true;  // the output is that of the last tick
 };
 
 }  // namespace motionrack::rtc5

@@ -1,11 +1,10 @@
-// Computation of outputs from positions, block by block.
-#include <motionrack/cards/rtc5/model/engine.hpp>
+// Outputs of blocks, and of the last tick.
+#include <motionrack/cards/rtc5/model/output_pipeline.hpp>
 
 namespace motionrack::rtc5 {
 
-void Engine::run_pipeline(std::size_t n, Sink* sink) {
-    BlockBuffers& b = *buffers_;
-    laser_.run_until(state_.tick + static_cast<std::int64_t>(n));
+void OutputPipeline::run(std::size_t n, Sink* sink) {
+    BlockBuffers& b = buffers_;
     heads_.transform_block(n);
     if (fly_.on()) {
         fly_.apply(n);
@@ -23,16 +22,16 @@ void Engine::run_pipeline(std::size_t n, Sink* sink) {
     if (recorded) recorder_.record();
     if (sink == nullptr) return;
     const auto ints = [&](std::size_t i) { return std::span<const std::int32_t>(b.out[i].data(), n); };
-    sink->samples({state_.tick, ints(0), ints(1), second ? ints(2) : std::span<const std::int32_t>{},
+    sink->samples({tick_, ints(0), ints(1), second ? ints(2) : std::span<const std::int32_t>{},
                    second ? ints(3) : std::span<const std::int32_t>{}, std::span<const std::uint8_t>(b.laser.data(), n),
                    fly_.on() ? std::span<const double>(b.x.data(), n) : std::span<const double>{},
                    fly_.on() ? std::span<const double>(b.y.data(), n) : std::span<const double>{}});
 }
 
 /// Output of the last of n ticks.
-void Engine::keep_output(std::size_t n) {
-    const BlockBuffers& b = *buffers_;
-    HeadOutput& o = state_.output;
+void OutputPipeline::keep_output(std::size_t n) {
+    const BlockBuffers& b = buffers_;
+    HeadOutput& o = output_;
     o.a = {b.out[0][n - 1], b.out[1][n - 1]};
     o.b = heads_.second_head() ? std::array<std::int32_t, 2>{b.out[2][n - 1], b.out[3][n - 1]}
                                : std::array<std::int32_t, 2>{};
@@ -41,11 +40,10 @@ void Engine::keep_output(std::size_t n) {
     evaluated_ = true;
 }
 
-/// Computes the output of the last tick if it was skipped.
-void Engine::evaluate() {
+void OutputPipeline::evaluate() {
     if (evaluated_) return;
-    BlockBuffers& b = *buffers_;
-    const Point p = state_.p + wobbel_.offset();
+    BlockBuffers& b = buffers_;
+    const Point p = p_ + wobbel_.offset();
     b.x[0] = p.x, b.y[0] = p.y;
     heads_.transform_block(1);
     if (fly_.on()) fly_.apply(1);
