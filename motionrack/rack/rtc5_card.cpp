@@ -72,8 +72,8 @@ struct Number {
     std::string_view doc;
 };
 constexpr Number numbers[] = {
-    {"jump_speed_bits_ms", [](const Engine& e) { return e.state().jump_speed; }, "speed of its jumps"},
-    {"mark_speed_bits_ms", [](const Engine& e) { return e.state().mark_speed; }, "speed of its marks"},
+    {"jump_speed_bits_ms", [](const Engine& e) { return e.state().path.jump_speed; }, "speed of its jumps"},
+    {"mark_speed_bits_ms", [](const Engine& e) { return e.state().path.mark_speed; }, "speed of its marks"},
     {"corrected_x_bits", [](const Engine& e) { return e.output().corrected.x; }, "X after all corrections"},
     {"corrected_y_bits", [](const Engine& e) { return e.output().corrected.y; }, "Y after all corrections"},
     {"encoder_speed_counts_ms", [](const Engine& e) { return e.encoder_speed(); },

@@ -160,7 +160,7 @@ void n_get_status(UINT CardNo, UINT* Status, UINT* Pos) {
 
 void n_set_delay_mode(UINT CardNo, UINT VarPoly, UINT, UINT EdgeLevel, UINT MinJumpDelay, UINT JumpLengthLimit) {
     command(__func__, CardNo, [&](Card& card) {
-        rtc5::Delays delays = card.engine.state().delays;
+        rtc5::Delays delays = card.engine.state().path.delays;
         delays.variable_polygon = VarPoly != 0;
         delays.edge_level = EdgeLevel;
         delays.min_jump = MinJumpDelay;

@@ -25,7 +25,7 @@ Result<void> Engine::execute_list(std::uint32_t list, std::int64_t position) {
 void Engine::stop(std::uint32_t cause) {
     State& s = state_;
     list_.stop();
-    s.activity = {};
+    path_.stop();
     s.p = fly_.leave(s.p, heads_.global());
     starts_.stop();
     laser_.switch_off();
@@ -49,29 +49,6 @@ Result<void> Engine::goto_xy(double x, double y) {
     jump_to({jump.p[0], jump.p[1]});
     state_.lists.moving_alone = 1;
     return {};
-}
-
-Result<void> Engine::set_delays(const Delays& d) {
-    struct Item {
-        std::string_view name;
-        std::int64_t ticks;
-    };
-    for (const Item& item : {Item{"Jump", d.jump}, Item{"Mark", d.mark}, Item{"Polygon", d.polygon},
-                             Item{"EdgeLevel", d.edge_level}, Item{"MinJumpDelay", d.min_jump}})
-        MOTIONRACK_CHECK(check_parameter("", item.name, static_cast<double>(item.ticks), Kind::ticks));
-    const KindInfo laser = kind_info(Kind::half_us);
-    MOTIONRACK_CHECK(check_parameter("", "LaserOnDelay", static_cast<double>(d.laser_on), Kind::half_us));
-    MOTIONRACK_CHECK(check_parameter("", "LaserOffDelay", static_cast<double>(d.laser_off), 0, laser.max, laser.unit));
-    MOTIONRACK_CHECK(check_parameter("", "JumpLengthLimit", d.jump_limit, 0, 16777215, "bits"));
-    state_.delays = d;
-    return {};
-}
-
-void Engine::set_jump_speed(double bits_ms) {
-    if (std::isfinite(bits_ms)) state_.jump_speed = clipped(bits_ms, Kind::speed);
-}
-void Engine::set_mark_speed(double bits_ms) {
-    if (std::isfinite(bits_ms)) state_.mark_speed = clipped(bits_ms, Kind::speed);
 }
 
 Result<void> Engine::set_ext_start_delay(std::int32_t delay, int encoder) {

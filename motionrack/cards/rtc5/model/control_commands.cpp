@@ -69,7 +69,7 @@ Answered header_word(const Engine& engine, std::int64_t table, double word_numbe
     return answer({loaded == nullptr ? 0 : loaded->header[static_cast<std::size_t>(word_number)]});
 }
 Answered set_delay_mode(Engine& engine, Numbers p) {
-    Delays delays = engine.state().delays;
+    Delays delays = engine.state().path.delays;
     delays.variable_polygon = p[0] != 0;
     delays.edge_level = wide(p[2]), delays.min_jump = wide(p[3]), delays.jump_limit = p[4];
     return done(engine.set_delays(delays));

@@ -63,15 +63,14 @@ std::size_t Engine::produce(std::size_t capacity) {
         n = micro_vectors(n, capacity);
         if (n == capacity) break;
         if (state_.lists.paused) {
-            wobbel_.clear_offset();
-            kernels::hold(&buffers_->x[n], &buffers_->y[n], capacity - n, state_.p);
+            path_.stay(n, capacity);
             return capacity;
         }
         if (!next_step(n)) break;
         if (n == 0 && (starts_.asked() || recorder_.samples_now())) capacity = 1;
         // The last tick is executed even without observers.
         if (state_.activity.kind == ActivityKind::none && until_rest_) capacity = n + 1;
-        n = fill(n, capacity);
+        n = path_.fill(n, capacity);
     }
     return n;
 }
@@ -102,45 +101,6 @@ std::size_t Engine::micro_vectors(std::size_t n, std::size_t capacity) {
     state_.p = a.to = {buffers_->x[n - 1], buffers_->y[n - 1]};
     a.step = a.direction = a.to - before;
     return n;
-}
-
-std::size_t Engine::fill(std::size_t n, std::size_t capacity) {
-    Activity& a = state_.activity;
-    double *const x = &buffers_->x[n], *const y = &buffers_->y[n];
-    std::size_t m = capacity - n;
-    switch (a.kind) {
-        case ActivityKind::none:
-            break;
-        case ActivityKind::line:
-            m = static_cast<std::size_t>(std::min<std::int64_t>(a.steps - a.done, static_cast<std::int64_t>(m)));
-            kernels::line(x, y, m, a.from, a.step, a.done + 1);
-            a.done += static_cast<std::int64_t>(m);
-            if (a.done == a.steps) x[m - 1] = a.to.x, y[m - 1] = a.to.y;
-            state_.p = {x[m - 1], y[m - 1]};
-            wobbel_.add(x, y, m, a.done - static_cast<std::int64_t>(m) + 1);
-            return n + m;
-        case ActivityKind::arc:
-            m = static_cast<std::size_t>(std::min<std::int64_t>(a.steps - a.done, static_cast<std::int64_t>(m)));
-            for (std::size_t i = 0; i < m; ++i) {
-                const Point p = a.position(++a.done, state_.p);
-                x[i] = p.x, y[i] = p.y;
-            }
-            state_.p = {x[m - 1], y[m - 1]};
-            wobbel_.add(x, y, m, a.done - static_cast<std::int64_t>(m) + 1);
-            return n + m;
-        case ActivityKind::hold:
-            m = static_cast<std::size_t>(std::min<std::int64_t>(a.steps - a.done, static_cast<std::int64_t>(m)));
-            a.done += static_cast<std::int64_t>(m);
-            break;
-        default: {
-            bool over = false;
-            m = static_cast<std::size_t>(wait_.ticks(static_cast<std::int64_t>(m), over));
-            if (over) a.done = a.steps;
-        }
-    }
-    kernels::hold(x, y, m, state_.p);
-    wobbel_.add(x, y, m, 0);
-    return n + m;
 }
 
 /// Without a sink, advances over all ticks of the present activity at once if its flags are known without evaluating

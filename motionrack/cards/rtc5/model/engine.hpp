@@ -23,6 +23,7 @@
 #include <motionrack/cards/rtc5/model/list_memory.hpp>
 #include <motionrack/cards/rtc5/model/mcbsp_receiver.hpp>
 #include <motionrack/cards/rtc5/model/output_pipeline.hpp>
+#include <motionrack/cards/rtc5/model/path_generator.hpp>
 #include <motionrack/cards/rtc5/model/settings.hpp>
 #include <motionrack/cards/rtc5/model/signal_recorder.hpp>
 #include <motionrack/cards/rtc5/model/state.hpp>
@@ -81,9 +82,9 @@ class Engine {
     }
     /// Selects the tables of head A and B, 0 .. 4; 0: A: 1:1, B: no output.
     Result<void> select_cor_table(int head_a, int head_b) { return heads_.select_tables(head_a, head_b); }
-    Result<void> set_delays(const Delays& delays);
-    void set_jump_speed(double bits_ms);
-    void set_mark_speed(double bits_ms);
+    Result<void> set_delays(const Delays& delays) { return path_.set_delays(delays); }
+    void set_jump_speed(double bits_ms) { path_.set_jump_speed(bits_ms); }
+    void set_mark_speed(double bits_ms) { path_.set_mark_speed(bits_ms); }
     /// at_once 0, 1, 3: with the next tick; 2: with the next jump. `head`: 1 A, 2 B, 3 both, 4 all, before fly.
     Result<void> set_matrix(int head, std::array<double, 4> matrix, int at_once) {
         return heads_.set_matrix(head, matrix, at_once);
@@ -200,7 +201,6 @@ class Engine {
     void piece(std::int64_t end, Sink* sink);
     std::size_t produce(std::size_t capacity);
     std::size_t micro_vectors(std::size_t n, std::size_t capacity);
-    std::size_t fill(std::size_t n, std::size_t capacity);
     bool skip(std::int64_t limit);
     void advance(std::int64_t n);
 
@@ -209,15 +209,9 @@ class Engine {
     void finish(std::int64_t tick);
     void take(const Command& c, std::int64_t tick);
     void take_motion(const Command& c, std::int64_t tick);
-    void begin_line(Point target, double speed, Ending ending, std::int64_t steps = 0);
     bool begin_polyline(std::int64_t tick);
-    void begin_arc(const Command& c);
-    void begin_hold(std::int64_t ticks, Ending ending = Ending::none);
     void jump_to(Point target);
-    std::int64_t corner_delay(const Command& next, bool& cut) const;
     const Command* next_mark() const;
-    Point direction_of(const Command& mark) const;
-    Point target_of(const Command& c, bool relative) const;
 
     // list_commands.cpp
     void pipeline_command(const Command& c);
@@ -225,7 +219,6 @@ class Engine {
     void control_command(const Command& c);
     bool empty_cycle(std::initializer_list<std::size_t> encoders);
     void park(const Command& c);
-    void wait(const Command& c);
 
     // control.cpp
     void stop(std::uint32_t cause);
@@ -247,6 +240,7 @@ class Engine {
                            flags_,        connections_,        *buffers_};
     LaserControl laser_{state_.laser, state_.tick, connections_, *buffers_};
     WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
+    PathGenerator path_{state_.path, state_.activity, state_.p, wait_, wobbel_, *buffers_};
     OutputPipeline pipeline_{state_.output, state_.p, state_.tick, wobbel_, fly_, heads_, recorder_, *buffers_};
     bool until_rest_ = false;  // the run ends when the card is idle
 };

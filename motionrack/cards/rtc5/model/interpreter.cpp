@@ -8,20 +8,9 @@ namespace motionrack::rtc5 {
 
 namespace {
 
-constexpr double nearly = 1 - 0x1p-40;  // a length within rounding of a whole number of steps is taken as that number
-
-std::int64_t steps_for(double length, double step) {
-    const double steps = std::ceil(length / step * nearly);
-    return steps < 1 ? 1 : static_cast<std::int64_t>(steps);
-}
-
 bool is_mark(Op op) {
     return op == Op::mark_abs || op == Op::mark_rel || op == Op::arc_abs || op == Op::arc_rel ||
            op == Op::timed_mark_abs || op == Op::timed_mark_rel;
-}
-bool is_relative(Op op) {
-    return op == Op::jump_rel || op == Op::mark_rel || op == Op::arc_rel || op == Op::timed_jump_rel ||
-           op == Op::timed_mark_rel || op == Op::micro_vector_rel;
 }
 
 }  // namespace
@@ -66,28 +55,19 @@ void Engine::finish(std::int64_t tick) {
     const Activity over = state_.activity;
     state_.activity.kind = ActivityKind::none;
     state_.lists.moving_alone = 0;
-    const Delays& d = state_.delays;
+    const Delays& d = path_.delays();
     if (ending == Ending::laser_off) laser_.switch_at(tick * half_us_per_tick, false, tick);
-    if (ending == Ending::jump) {
-        std::int64_t delay = d.jump;
-        const Point delta = over.to - over.from;
-        const double length = std::sqrt(delta.x * delta.x + delta.y * delta.y);
-        if (length < d.jump_limit && d.min_jump < d.jump)
-            delay = static_cast<std::int64_t>(
-                std::floor(static_cast<double>(d.min_jump) +
-                           static_cast<double>(d.jump - d.min_jump) * (length / d.jump_limit) + 0.5));
-        begin_hold(delay);
-    }
+    if (ending == Ending::jump) path_.begin_hold(path_.jump_delay(over));
     if (ending != Ending::mark) return;
     state_.activity.direction = over.direction;
     bool cut = true;
     const Command* const next = next_mark();
-    const std::int64_t delay = next != nullptr ? corner_delay(*next, cut) : d.mark;
+    const std::int64_t delay = next != nullptr ? path_.corner_delay(*next, cut) : d.mark;
     if (next == nullptr || cut) {
         laser_.switch_at(tick * half_us_per_tick + d.laser_off, false, tick);
         state_.lists.marking = 0;
     }
-    begin_hold(delay);
+    path_.begin_hold(delay);
 }
 
 /// The mark that continues the polyline, or nullptr.
@@ -103,73 +83,9 @@ const Command* Engine::next_mark() const {
     return nullptr;
 }
 
-Point Engine::direction_of(const Command& mark) const {
-    const bool relative = is_relative(mark.op);
-    if (mark.op != Op::arc_abs && mark.op != Op::arc_rel) return target_of(mark, relative) - state_.p;
-    const Point radius = state_.p - target_of(mark, relative);
-    return mark.p[2] > 0 ? Point{radius.y, -radius.x} : Point{-radius.y, radius.x};
-}
-
-std::int64_t Engine::corner_delay(const Command& next, bool& cut) const {
-    const Delays& d = state_.delays;
-    cut = false;
-    if (!d.variable_polygon) return d.polygon;
-    const Point a = state_.activity.direction, b = direction_of(next);
-    const double lengths = std::sqrt(a.x * a.x + a.y * a.y) * std::sqrt(b.x * b.x + b.y * b.y);
-    const double cosine = lengths > 0 ? (a.x * b.x + a.y * b.y) / lengths : 1;
-    const auto delay = static_cast<std::int64_t>(std::floor(static_cast<double>(d.polygon) * (1 - cosine) + 0.5));
-    cut = d.edge_level > 0 && delay > d.edge_level;
-    return delay;
-}
-
-Point Engine::target_of(const Command& c, bool relative) const {
-    if (!relative) return {c.p[0], c.p[1]};
-    return {clipped(state_.p.x + c.p[0], Kind::coordinate), clipped(state_.p.y + c.p[1], Kind::coordinate)};
-}
-
-void Engine::begin_hold(std::int64_t ticks, Ending ending) {
-    if (ticks <= 0) return;
-    Activity& a = state_.activity;
-    a.kind = ActivityKind::hold;
-    a.ending = ending;
-    a.done = 0;
-    a.steps = ticks;
-}
-
-void Engine::begin_line(Point target, double speed, Ending ending, std::int64_t steps) {
-    Activity& a = state_.activity;
-    const Point delta = target - state_.p;
-    const double length = std::sqrt(delta.x * delta.x + delta.y * delta.y);
-    a.kind = ActivityKind::line;
-    a.ending = ending;
-    a.done = 0;
-    a.steps = steps > 0 ? steps : steps_for(length, speed / 100);
-    a.from = state_.p;
-    a.to = target;
-    const double n = static_cast<double>(a.steps);
-    a.step = {delta.x / n, delta.y / n};
-    a.direction = delta;
-}
-
-void Engine::begin_arc(const Command& c) {
-    Activity& a = state_.activity;
-    const Point centre = target_of(c, c.op == Op::arc_rel), radius = state_.p - centre;
-    const double angle = -c.p[2] * (pi / 180), length = std::sqrt(radius.x * radius.x + radius.y * radius.y);
-    a.kind = ActivityKind::arc;
-    a.ending = Ending::mark;
-    a.done = 0;
-    a.steps = steps_for(std::abs(angle) * length, state_.mark_speed / 100);
-    a.from = radius;
-    a.to = centre;
-    a.step = {angle / static_cast<double>(a.steps), 0};
-    const SinCos t = sin_cos(angle);
-    const Point end = {t.cos * radius.x - t.sin * radius.y, t.sin * radius.x + t.cos * radius.y};
-    a.direction = c.p[2] > 0 ? Point{end.y, -end.x} : Point{-end.y, end.x};
-}
-
 void Engine::jump_to(Point target) {
     heads_.begin_jump();
-    begin_line(target, state_.jump_speed, Ending::jump);
+    path_.begin_jump(target);
 }
 
 /// Switches the laser on for a mark. Returns false if the mark must wait before it moves, and be repeated.
@@ -177,11 +93,11 @@ bool Engine::begin_polyline(std::int64_t tick) {
     if (state_.lists.marking) return true;
     state_.lists.marking = 1;
     wobbel_.begin_polyline();
-    const std::int64_t delay = state_.delays.laser_on,
+    const std::int64_t delay = path_.delays().laser_on,
                        wait = delay < 0 ? (-delay + half_us_per_tick - 1) / half_us_per_tick : 0;
     laser_.switch_at((tick + wait) * half_us_per_tick + delay, true, tick);
     if (wait == 0) return true;
-    begin_hold(wait);
+    path_.begin_hold(wait);
     state_.lists.next = state_.lists.current;
     return false;
 }
@@ -195,17 +111,10 @@ void Engine::take(const Command& c, std::int64_t tick) {
         case Op::set_end_of_list:
             return list_.end(true, tick);
         case Op::set_jump_speed:
-            s.jump_speed = c.p[0];
-            return;
         case Op::set_mark_speed:
-            s.mark_speed = c.p[0];
-            return;
         case Op::set_scanner_delays:
-            s.delays.jump = whole(0), s.delays.mark = whole(1), s.delays.polygon = whole(2);
-            return;
         case Op::set_laser_delays:
-            s.delays.laser_on = whole(0), s.delays.laser_off = whole(1);
-            return;
+            return path_.take(c);
         case Op::laser_signal_on_list:
         case Op::laser_signal_off_list:
             return laser_.switch_at(tick * half_us_per_tick, c.op == Op::laser_signal_on_list, tick);
@@ -215,18 +124,18 @@ void Engine::take(const Command& c, std::int64_t tick) {
         case Op::set_wobbel:
             return wobbel_.set(c);
         case Op::list_call:
-            if (!list_.call(whole(0), tick)) begin_hold(1);
+            if (!list_.call(whole(0), tick)) path_.begin_hold(1);
             return;
         case Op::sub_call:
-            if (!list_.call(list_.subroutine(whole(0)), tick)) begin_hold(1);
+            if (!list_.call(list_.subroutine(whole(0)), tick)) path_.begin_hold(1);
             return;
         case Op::list_return:
-            if (!list_.come_back()) begin_hold(1);
+            if (!list_.come_back()) path_.begin_hold(1);
             return;
         case Op::set_trigger:
         case Op::set_trigger4:
             recorder_.begin(c, tick);
-            return c.op == Op::set_trigger4 ? begin_hold(1) : void();
+            return c.op == Op::set_trigger4 ? path_.begin_hold(1) : void();
         default:
             break;
     }
@@ -236,7 +145,7 @@ void Engine::take(const Command& c, std::int64_t tick) {
 
 void Engine::take_motion(const Command& c, std::int64_t tick) {
     const auto whole = [&](int i) { return static_cast<std::int64_t>(c.p[static_cast<std::size_t>(i)]); };
-    const Point target = target_of(c, is_relative(c.op));
+    const Point target = path_.target_of(c);
     const std::int64_t start = tick * half_us_per_tick;
     switch (c.op) {
         case Op::jump_abs:
@@ -245,20 +154,21 @@ void Engine::take_motion(const Command& c, std::int64_t tick) {
         case Op::timed_jump_abs:
         case Op::timed_jump_rel:
             heads_.begin_jump();
-            return begin_line(target, 0, Ending::jump,
-                              std::max<std::int64_t>(1, static_cast<std::int64_t>(c.p[2] / 10)));
+            return path_.begin_line(target, 0, Ending::jump,
+                                    std::max<std::int64_t>(1, static_cast<std::int64_t>(c.p[2] / 10)));
         case Op::mark_abs:
         case Op::mark_rel:
-            if (begin_polyline(tick)) begin_line(target, state_.mark_speed, Ending::mark);
+            if (begin_polyline(tick)) path_.begin_mark(target);
             return;
         case Op::timed_mark_abs:
         case Op::timed_mark_rel:
             if (begin_polyline(tick))
-                begin_line(target, 0, Ending::mark, std::max<std::int64_t>(1, static_cast<std::int64_t>(c.p[2] / 10)));
+                path_.begin_line(target, 0, Ending::mark,
+                                 std::max<std::int64_t>(1, static_cast<std::int64_t>(c.p[2] / 10)));
             return;
         case Op::arc_abs:
         case Op::arc_rel:
-            if (begin_polyline(tick)) begin_arc(c);
+            if (begin_polyline(tick)) path_.begin_arc(c);
             return;
         case Op::micro_vector_abs:
         case Op::micro_vector_rel: {
@@ -267,15 +177,15 @@ void Engine::take_motion(const Command& c, std::int64_t tick) {
             if (on && (!off || whole(2) < whole(3))) laser_.switch_at(start + whole(2), true, tick);
             if (off) laser_.switch_at(start + whole(3), false, tick);
             if (on && off && whole(3) <= whole(2)) laser_.switch_at(start + whole(2), true, tick);
-            return begin_line(target, 0, Ending::none, 1);
+            return path_.begin_line(target, 0, Ending::none, 1);
         }
         case Op::long_delay:
-            return begin_hold(std::max<std::int64_t>(1, whole(0)));
+            return path_.begin_hold(std::max<std::int64_t>(1, whole(0)));
         case Op::laser_on_list:
             laser_.switch_at(start, true, tick);
-            return begin_hold(std::max<std::int64_t>(1, whole(0)), Ending::laser_off);
+            return path_.begin_hold(std::max<std::int64_t>(1, whole(0)), Ending::laser_off);
         default:
-            return begin_hold(1);
+            return path_.begin_hold(1);
     }
 }
 

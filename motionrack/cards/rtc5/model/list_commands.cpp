@@ -17,7 +17,7 @@ void Engine::pipeline_command(const Command& c) {
         case Op::wait_for_encoder_mode:
         case Op::wait_for_encoder_in_range:
         case Op::wait_for_mcbsp:
-            return wait(c);
+            return path_.begin_wait(c);
         case Op::set_fly_limits:
         case Op::set_fly_limits_z:
             return flags_.set_limits(c);
@@ -115,7 +115,7 @@ bool Engine::fly_command(const Command& c) {
             return false;
     }
     fly_.take(c);
-    begin_hold(1);
+    path_.begin_hold(1);
     return true;
 }
 
@@ -137,7 +137,7 @@ bool Engine::empty_cycle(std::initializer_list<std::size_t> encoders) {
     if (!needed) return false;
     l.again = 1;
     l.next = l.current;
-    begin_hold(1);
+    path_.begin_hold(1);
     return true;
 }
 
@@ -151,19 +151,6 @@ void Engine::park(const Command& c) {
         if (c.p[0] == 0) target = fly_.park_from();
     }
     jump_to(target);
-}
-
-void Engine::wait(const Command& c) {
-    Activity& a = state_.activity;
-    a.kind = c.op == Op::wait_for_mcbsp              ? ActivityKind::wait_mcbsp
-             : c.op == Op::wait_for_encoder_in_range ? ActivityKind::wait_range
-                                                     : ActivityKind::wait_encoder;
-    a.ending = Ending::none;
-    a.done = 0;
-    a.steps = 1;
-    for (std::size_t i = 0; i < 4; ++i) a.value[i] = static_cast<std::int64_t>(c.p[i]);
-    if (c.op == Op::wait_for_encoder) a.value[2] = 0;
-    if (c.op == Op::wait_for_mcbsp) std::swap(a.value[0], a.value[1]);  // value, axis, mode
 }
 
 }  // namespace motionrack::rtc5

@@ -69,7 +69,7 @@ std::int32_t SignalRecorder::value_of(const SignalInfo& s) const {
         case SignalSource::count:
             return card_.encoders.counters[s.head].count();
         case SignalSource::mark_speed:
-            return whole(card_.mark_speed);
+            return whole(card_.path.mark_speed);
     }
     return 0;
 }

@@ -180,6 +180,11 @@ struct Delays {
     double jump_limit = 0;  ///< bits
 };
 
+struct PathSettings {
+    double jump_speed = 1000, mark_speed = 1000;  ///< bits/ms
+    Delays delays;
+};
+
 struct Lists {
     std::array<std::int64_t, 4> begin{};    ///< start of list 1, 2, 3; end of the memory
     std::int64_t input = 0, input_end = 0;  ///< position of the next command
@@ -242,8 +247,7 @@ struct State {
     double z = 0;
     Activity activity;
     Lists lists;
-    double jump_speed = 1000, mark_speed = 1000;
-    Delays delays;
+    PathSettings path;
     EncodersState encoders;
     FlyState fly;
     FlyLimits limits{-8388608, 8388607, -8388608, 8388607, -8388608, 8388607};

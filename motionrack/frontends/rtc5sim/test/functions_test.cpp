@@ -115,7 +115,7 @@ const Row control_rows[] = {
     {"set_mark_speed_ctrl", [] { set_mark_speed_ctrl(8888); }, [](Engine& c) { c.set_mark_speed(8888); }},
     {"set_delay_mode", [] { set_delay_mode(1, 0, 40, 2, 900'000); },
      [](Engine& c) {
-         rtc5::Delays d = c.state().delays;
+         rtc5::Delays d = c.state().path.delays;
          d.variable_polygon = 1, d.edge_level = 40, d.min_jump = 2, d.jump_limit = 900'000;
          ASSERT_TRUE(c.set_delays(d));
      }},
