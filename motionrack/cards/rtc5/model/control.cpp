@@ -1,9 +1,6 @@
 // Control commands: settings made between ticks, and answers.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <motionrack/base/trig.hpp>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 
 namespace motionrack::rtc5 {
@@ -46,7 +43,7 @@ Result<void> Engine::goto_xy(double x, double y) {
         return fail(ErrorKind::refused,
                     "goto_xy: a list is running, or the card moves. Nothing was moved. Wait until it is not busy");
     MOTIONRACK_TRY(const Command jump, list_command(Op::jump_abs, {x, y}));
-    jump_to({jump.p[0], jump.p[1]});
+    interpreter_.jump_to({jump.p[0], jump.p[1]});
     state_.lists.moving_alone = 1;
     return {};
 }

@@ -1,7 +1,5 @@
 // Advance of ticks: in blocks with a sink, from vector to vector without.
 #include <algorithm>
-#include <cmath>
-#include <motionrack/base/trig.hpp>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 
 namespace motionrack::rtc5 {
@@ -60,13 +58,13 @@ void Engine::piece(std::int64_t end, Sink* sink) {
 std::size_t Engine::produce(std::size_t capacity) {
     std::size_t n = 0;
     while (n < capacity) {
-        n = micro_vectors(n, capacity);
+        n = interpreter_.micro_vectors(n, capacity);
         if (n == capacity) break;
         if (state_.lists.paused) {
             path_.stay(n, capacity);
             return capacity;
         }
-        if (!next_step(n)) break;
+        if (!interpreter_.next_step(n)) break;
         if (n == 0 && (starts_.asked() || recorder_.samples_now())) capacity = 1;
         // The last tick is executed even without observers.
         if (state_.activity.kind == ActivityKind::none && until_rest_) capacity = n + 1;
@@ -75,39 +73,11 @@ std::size_t Engine::produce(std::size_t capacity) {
     return n;
 }
 
-/// Fast path for dense lists: consecutive micro-vectors that do not switch the laser.
-std::size_t Engine::micro_vectors(std::size_t n, std::size_t capacity) {
-    Lists& l = state_.lists;
-    Activity& a = state_.activity;
-    if (!l.running || l.paused || l.skip || a.kind != ActivityKind::line || a.done != a.steps ||
-        a.ending != Ending::none)
-        return n;
-    const auto silent = [](double at) { return !(at >= 0 && at < half_us_per_tick); };
-    const std::int64_t first = l.next,
-                       end = std::min<std::int64_t>(l.begin[3], first + static_cast<std::int64_t>(capacity - n));
-    std::int64_t at = first;
-    for (; at < end; ++at, ++n) {
-        const Command& c = memory_[at];
-        if (c.op != Op::micro_vector_abs || !silent(c.p[2]) || !silent(c.p[3])) break;
-        buffers_->x[n] = c.p[0];
-        buffers_->y[n] = c.p[1];
-    }
-    if (at == first) return n;
-    l.current = at - 1;
-    l.next = at;
-    const Point before = at - first > 1 ? Point{buffers_->x[n - 2], buffers_->y[n - 2]} : state_.p;
-    wobbel_.clear_offset();
-    a.from = before;
-    state_.p = a.to = {buffers_->x[n - 1], buffers_->y[n - 1]};
-    a.step = a.direction = a.to - before;
-    return n;
-}
-
 /// Without a sink, advances over all ticks of the present activity at once if its flags are known without evaluating
 /// each tick. Returns false if only commands were taken.
 bool Engine::skip(std::int64_t limit) {
     State& s = state_;
-    if (!s.lists.paused) next_step(0);
+    if (!s.lists.paused) interpreter_.next_step(0);
     if (encoders_.speed_watched() || mcbsp_.words_have_types() || recorder_.samples_now() || wobbel_.active())
         return false;
     if (starts_.asked()) limit = 1;

@@ -20,6 +20,7 @@
 #include <motionrack/cards/rtc5/model/kernels.hpp>
 #include <motionrack/cards/rtc5/model/laser_control.hpp>
 #include <motionrack/cards/rtc5/model/list_execution.hpp>
+#include <motionrack/cards/rtc5/model/list_interpreter.hpp>
 #include <motionrack/cards/rtc5/model/list_memory.hpp>
 #include <motionrack/cards/rtc5/model/mcbsp_receiver.hpp>
 #include <motionrack/cards/rtc5/model/output_pipeline.hpp>
@@ -200,25 +201,8 @@ class Engine {
     void begin_tick();
     void piece(std::int64_t end, Sink* sink);
     std::size_t produce(std::size_t capacity);
-    std::size_t micro_vectors(std::size_t n, std::size_t capacity);
     bool skip(std::int64_t limit);
     void advance(std::int64_t n);
-
-    // interpreter.cpp: the path
-    bool next_step(std::size_t n);
-    void finish(std::int64_t tick);
-    void take(const Command& c, std::int64_t tick);
-    void take_motion(const Command& c, std::int64_t tick);
-    bool begin_polyline(std::int64_t tick);
-    void jump_to(Point target);
-    const Command* next_mark() const;
-
-    // list_commands.cpp
-    void pipeline_command(const Command& c);
-    bool fly_command(const Command& c);
-    void control_command(const Command& c);
-    bool empty_cycle(std::initializer_list<std::size_t> encoders);
-    void park(const Command& c);
 
     // control.cpp
     void stop(std::uint32_t cause);
@@ -242,6 +226,10 @@ class Engine {
     WobbelMotion wobbel_{state_.wobbel, state_.lists, state_.activity};
     PathGenerator path_{state_.path, state_.activity, state_.p, wait_, wobbel_, *buffers_};
     OutputPipeline pipeline_{state_.output, state_.p, state_.tick, wobbel_, fly_, heads_, recorder_, *buffers_};
+    ListInterpreter interpreter_{
+        state_,
+        {memory_, list_, path_, laser_, wobbel_, heads_, fly_, encoders_, mcbsp_, flags_, recorder_, starts_},
+        *buffers_};
     bool until_rest_ = false;  // the run ends when the card is idle
 };
 
