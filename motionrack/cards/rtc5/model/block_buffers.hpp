@@ -14,7 +14,7 @@ struct BlockBuffers {
     Doubles x, y;          ///< positions, before and after the correction
     Doubles effective[2];  ///< counts or words that the correction uses
     Doubles head_x, head_y;
-    Counts raw[2], counts[2];  ///< of the encoders
+    Counts raw[2], counts[2];  ///< encoder counts
     Counts out[4];             ///< x, y of head A and B
     std::array<std::uint32_t, kernels::block> words;
     std::array<std::uint8_t, kernels::block> laser;  ///< half-microseconds with the laser on

@@ -1,4 +1,4 @@
-// What is attached to the card: the receiver of its samples, the source of its inputs, a listener of its lists.
+// Attached to the card: the receiver of its samples, the source of its inputs, a listener of its lists.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ class ListListener {
 
 /// Not part of the card's state.
 struct Connections {
-    Sink* sink = nullptr;              ///< of the present run
+    Sink* sink = nullptr;              ///< receives the samples of the present run
     Inputs* inputs = nullptr;          ///< nullptr: set_count and receive give the inputs
     ListListener* listener = nullptr;  ///< nullptr: none
 };

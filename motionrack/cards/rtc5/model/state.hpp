@@ -1,5 +1,5 @@
 // The state of the card except its lists and tables. Every member has 8 bytes (or comes in pairs), so no padding enters
-// a snapshot's hash. A part whose reset() keeps something has one of its own; the others become what they are at first.
+// a snapshot's hash. A part whose reset() keeps something has one of its own; the others get their first values.
 #pragma once
 
 #include <algorithm>
