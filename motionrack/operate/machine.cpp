@@ -356,8 +356,7 @@ void Machine::forbid_starts(std::string source, std::string text) {
         stream_->hold();
     else if (!idle(state_) && state_ != MachineState::hold)
         cancel({"", "", "Alarm"});
-    raise(std::move(source), std::move(text));
-    status_.alarms.back().stays = true;
+    alarms_.raise(now(), std::move(source), std::move(text)).stays = true;
 }
 
 Result<void> Machine::may_start(const char* what) const {
@@ -369,12 +368,6 @@ Result<void> Machine::may_begin(const char* what) {
     MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), what));
     MOTIONRACK_CHECK(may_start(what));
     return door_.check_closed(what);
-}
-
-bool Machine::acknowledge_alarm(std::int64_t alarm) {
-    for (Alarm& one : status_.alarms)
-        if (one.number == alarm) return one.acknowledged = true;
-    return false;
 }
 
 }  // namespace motionrack::operate

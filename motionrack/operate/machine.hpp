@@ -22,6 +22,7 @@
 #include <motionrack/control/no_axes.hpp>
 #include <motionrack/control/program_feed.hpp>
 #include <motionrack/control/stream_executor.hpp>
+#include <motionrack/operate/alarm_list.hpp>
 #include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
 #include <motionrack/operate/manual_access.hpp>
@@ -55,7 +56,7 @@ struct MachineSettings {
     std::vector<LivePlace> live = {};                 ///< cards replaced by real ones, in service only
     Duration slice = milliseconds(2);
     Duration quiet = milliseconds(20);  ///< pause after which a sender's input counts as complete
-    std::size_t max_alarms = 100;       ///< ended and acknowledged alarms are removed first, then the oldest
+    std::size_t max_alarms = 100;       ///< see AlarmList
 };
 
 class Machine {
@@ -121,8 +122,8 @@ class Machine {
     void set_coolant(bool mist, bool flood);
     /// Clears work offsets, G28 and G30. Refused while something moves.
     Result<void> clear_offsets();
-    /// Returns false if the alarm is unknown.
-    bool acknowledge_alarm(std::int64_t alarm);
+    /// As AlarmList::acknowledge.
+    bool acknowledge_alarm(std::int64_t alarm) { return alarms_.acknowledge(alarm); }
     /// Blocks starts because the machine's actions can no longer be recorded. Until the process restarts, no program,
     /// line or homing starts and nothing resumes. Motion decelerates, a program by a feed hold; jogs remain possible.
     /// The first call raises a permanent alarm.
@@ -176,7 +177,6 @@ class Machine {
     void home_all();
     void change_positions();
     void failed(const Error& error);
-    void raise(std::string source, std::string text, char axis = '\0');
     std::string at_work() const;
     void wait_for_standstill();
     void take_stop();
@@ -227,9 +227,9 @@ class Machine {
     ManualAccess manual_access_{*this};
     // status and listeners
     Status status_;
+    AlarmList alarms_{status_.alarms, settings_.max_alarms};
     std::vector<std::function<void(const Status&)>> listeners_;
     std::vector<std::function<void(const StopReport&)>> stop_listeners_;
-    std::int64_t next_alarm_ = 1;
     std::mutex lock_;
     std::vector<std::function<void()>> inbox_;
     Service service_{*this};  ///< destroyed first: the stop of a real card takes time, in which slices run

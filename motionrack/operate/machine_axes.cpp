@@ -49,7 +49,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     rack_.set_stop_flag(stream_->stop_flag());
     rack_.on_slice(settings_.slice, [this] { slice(); });
     rack_.stop_latch().arm();
-    if (!settings_.alarm.empty()) raise("last run", settings_.alarm);
+    if (!settings_.alarm.empty()) alarms_.raise(now(), "last run", settings_.alarm);
     publish_status();
     return {};
 }

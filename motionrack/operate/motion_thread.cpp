@@ -28,9 +28,7 @@ void Machine::slice() {
         for (const std::function<void()>& one : work) one();
         take_stop();
         if (hands_over_) continue;
-        if (!is_stationary(state_))  // a move may take long
-            for (Alarm& one : validity_.poll(now(), state_))
-                raise(std::move(one.source), std::move(one.text), one.axis);
+        if (!is_stationary(state_)) alarms_.raise(now(), validity_.poll(now(), state_));  // a move may take long
         publish_status();
     }
 }
@@ -39,11 +37,11 @@ void Machine::slice() {
 void Machine::take_stop() {
     rack::StopLatch& latch = rack_.stop_latch();
     latch.poll();
-    for (std::string& text : latch.contacts().take_alarms()) raise("emergency stop", std::move(text));
+    for (std::string& text : latch.contacts().take_alarms()) alarms_.raise(now(), "emergency stop", std::move(text));
     const bool in_work =
         (state_ == MachineState::moving && !stream_->last_probe().runs) || state_ == MachineState::hold;
     if (std::optional<std::string> opened = door_.take_opening(state_, in_work)) {
-        raise("door", std::move(*opened));
+        alarms_.raise(now(), "door", std::move(*opened));
         rack::react(rack_, rack::StopSource::stop_command);
         if (state_ == MachineState::moving && in_work) stream_->hold();
         if (!in_work && !idle(state_)) cancel();
@@ -60,13 +58,6 @@ namespace {
 /// A commanded stop needs no alarm.
 std::string alarm_source(const rack::StopLatch& latch) {
     return latch.is_ordered() ? std::string() : std::string(rack::name_of(latch.cause()));
-}
-
-/// The alarm that is raised next also covers these axes.
-void supersede(std::vector<Alarm>& alarms, std::string_view axes) {
-    for (Alarm& alarm : alarms)
-        if (alarm.axis != '\0' && axes.find(alarm.axis) != std::string_view::npos)
-            alarm.active = false, alarm.acknowledged = true;
 }
 
 /// An axis left without a position by homing or by its own card reports that itself.
@@ -92,7 +83,7 @@ void Machine::step() {
     }
     if (manual_access_.any()) return manual_access_.step();
     if (jogs_.any()) return jog_all();
-    for (Alarm& one : validity_.poll(now(), state_)) raise(std::move(one.source), std::move(one.text), one.axis);
+    alarms_.raise(now(), validity_.poll(now(), state_));
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
     const bool drives = stream_->state() == control::ExecutionState::running ||
@@ -125,9 +116,9 @@ void Machine::enter_error_stop(std::string source, std::string text) {
     if (!unknown.empty() && !says_lost(text))
         text += fmt::format(" The position of {} is not valid any more; home again.", unknown);
     if (source.empty() && !(lost + unknown).empty()) source = "position";
-    if (!source.empty()) supersede(status_.alarms, lost + unknown);
+    if (!source.empty()) alarms_.supersede(lost + unknown);
     tools_off();
-    if (!source.empty()) raise(std::move(source), text);
+    if (!source.empty()) alarms_.raise(now(), std::move(source), text);
     enter(MachineState::error_stop, std::move(text));
 }
 
@@ -146,7 +137,7 @@ void Machine::wait_for_standstill() {
         ordered_by_.clear();
         stream_->reset_modal_state();
         tools_off();
-        for (Alarm& alarm : status_.alarms) alarm.active = alarm.stays;
+        alarms_.reset();
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
     if (state_ == MachineState::stopping) enter(MachineState::standstill, status_.reason);
@@ -205,7 +196,7 @@ void Machine::jog_all() {
         status_.reason = one.how.error().message;
         if (one.position_valid || !validity_.of(one.letter)) continue;
         validity_.invalidate(one.letter);  // it stopped without a ramp, or has lost its counts
-        supersede(status_.alarms, {&one.letter, 1});
+        alarms_.supersede({&one.letter, 1});
         jogs_.let_go();
         stop_wanted_ = true;
         failed(one.how.error());
@@ -242,10 +233,10 @@ void Machine::change_positions() {
         status_.reason = done.error().message;
         if (!validity_.of(declared.letter)) continue;
         validity_.invalidate(declared.letter);
-        raise("position",
-              fmt::format("The position of axis {} was not set, and is not valid any more: {}", declared.letter,
-                          done.error().message),
-              declared.letter);
+        alarms_.raise(now(), "position",
+                      fmt::format("The position of axis {} was not set, and is not valid any more: {}", declared.letter,
+                                  done.error().message),
+                      declared.letter);
     }
     if (Result<void> taken = take_group(); !taken) failed(taken.error());
 }
@@ -269,17 +260,6 @@ void Machine::failed(const Error& error) {
     const bool known =
         latch.latched() && latch.cause() != rack::StopSource::limit_switch && !alarm_source(latch).empty();
     enter_error_stop(known ? alarm_source(latch) : what, error.text());
-}
-
-void Machine::raise(std::string source, std::string text, char axis) {
-    std::vector<Alarm>& alarms = status_.alarms;
-    if (axis != '\0') supersede(alarms, {&axis, 1});
-    alarms.erase(std::remove_if(alarms.begin(), alarms.end(),
-                                [](const Alarm& alarm) { return !alarm.active && alarm.acknowledged; }),
-                 alarms.end());
-    if (alarms.size() >= settings_.max_alarms) alarms.erase(alarms.begin());
-    alarms.push_back({next_alarm_++, now(), std::move(source), std::move(text)});
-    alarms.back().axis = axis;
 }
 
 void Machine::enter(MachineState state, std::string why) {

@@ -197,12 +197,9 @@ void Service::stop_axes() {
     if (!live_) return stop_at_once(*library_, host_of(machine_.rack_));
     const LiveStop stop = live_->stop(*library_);
     const std::string source = "card " + card_;
-    if (stop.is_stationary)
-        for (Alarm& alarm : machine_.status_.alarms)
-            if (alarm.stays && alarm.source == source) alarm.stays = alarm.active = false;
+    if (stop.is_stationary) machine_.alarms_.end_staying(source);
     if (stop.sentence.empty()) return;
-    machine_.raise(source, stop.sentence);
-    machine_.status_.alarms.back().stays = !stop.is_stationary;
+    machine_.alarms_.raise(machine_.now(), source, stop.sentence).stays = !stop.is_stationary;
 }
 
 /// Ends all motion of the card and initialises it for the controller.
