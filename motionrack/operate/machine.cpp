@@ -112,12 +112,10 @@ Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const c
 Result<void> Machine::axes_may_move(const char* what, std::string_view axes) const {
     if (!positions_wanted_.empty())
         return not_now(fmt::format("{}: positions of axes are being set; try again. Nothing was moved.", what));
-    for (const rack::RackAxis& axis : rack_.config().axes) {
-        const auto i = static_cast<std::size_t>(axis.index());
-        if (axes.find(axis.letter) != std::string_view::npos && (!enabled_[i] || disable_wanted_[i]))
+    for (const rack::RackAxis& axis : rack_.config().axes)
+        if (axes.find(axis.letter) != std::string_view::npos && !enables_.may_move(axis))
             return not_now(
                 fmt::format("{}: axis {} is disabled; enable it first. Nothing was moved.", what, axis.letter));
-    }
     return {};
 }
 
@@ -139,12 +137,7 @@ Result<void> Machine::enable(bool on, std::string_view axes) {
     for (const char letter : axes)
         MOTIONRACK_CHECK(axis_named(rack_.config(), on ? "Nothing was enabled" : "Nothing was disabled", letter));
     if (!on) cancel({"", "", "Disabling"});
-    for (const rack::RackAxis& axis : rack_.config().axes) {
-        if (!axes.empty() && axes.find(axis.letter) == std::string_view::npos) continue;
-        const auto i = static_cast<std::size_t>(axis.index());
-        disable_wanted_[i] = !on;
-        if (on) enabled_[i] = true;
-    }
+    enables_.set(on, axes);
     if (on && state_ == MachineState::disabled) enter(MachineState::standstill);
     return {};
 }

@@ -23,6 +23,7 @@
 #include <motionrack/control/program_feed.hpp>
 #include <motionrack/control/stream_executor.hpp>
 #include <motionrack/operate/alarm_list.hpp>
+#include <motionrack/operate/axis_enables.hpp>
 #include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
 #include <motionrack/operate/manual_access.hpp>
@@ -201,7 +202,7 @@ class Machine {
     bool hands_over_ = false;   ///< a card is being set up for another driver; its counters are meaningless
     PositionValidity validity_;
     Door door_;
-    std::array<bool, control::axis_count> enabled_ = {}, disable_wanted_ = {};
+    AxisEnables enables_{rack_.config()};
     MachineState state_ = MachineState::disabled;
     bool quit_ = false, stop_wanted_ = false;
     bool stops_at_rest_ = false;                 ///< nothing was moving or pending at the last stop request

@@ -1,7 +1,6 @@
 // The motion thread: executes one action at a time to its end, and processes the inbox in every slice.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <motionrack/operate/machine.hpp>
 #include <motionrack/rack/stop_reactions.hpp>
 
@@ -141,10 +140,8 @@ void Machine::wait_for_standstill() {
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
     if (state_ == MachineState::stopping) enter(MachineState::standstill, status_.reason);
-    for (std::size_t i = 0; i < enabled_.size(); ++i)
-        enabled_[i] = enabled_[i] && !std::exchange(disable_wanted_[i], false);
-    const bool any = std::find(enabled_.begin(), enabled_.end(), true) != enabled_.end();
-    if (!any && state_ == MachineState::standstill) enter(MachineState::disabled);
+    enables_.settle();
+    if (!enables_.any() && state_ == MachineState::standstill) enter(MachineState::disabled);
 }
 
 // ---- lines and programs
@@ -304,8 +301,7 @@ void Machine::publish_status() {
     status_.state = state_;
     status_.axes.clear();
     for (rack::RunningAxis& axis : rack_.axes()) {
-        const bool enabled = enabled_[static_cast<std::size_t>(axis.config.index())];
-        status_.axes.push_back(look_at(axis, position_valid(axis.config), enabled, now()));
+        status_.axes.push_back(look_at(axis, position_valid(axis.config), enables_.of(axis.config), now()));
     }
     status_.program = program_name_;
     status_.line = stream_->current_line();

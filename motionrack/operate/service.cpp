@@ -222,9 +222,8 @@ void Service::finish() {
     if (pending_) std::exchange(pending_, std::nullopt)->ready(fail(ErrorKind::stopped, "Not called. " + sentence));
     if (const Callback reported = std::exchange(begun_, {})) reported(fail(ErrorKind::stopped, sentence));
     if (!taken) return machine_.failed(taken.error());
-    const bool any = std::find(machine_.enabled_.begin(), machine_.enabled_.end(), true) != machine_.enabled_.end();
     if (machine_.state_ == MachineState::service && !machine_.rack_.stop_latch().latched())
-        machine_.enter(any ? MachineState::standstill : MachineState::disabled, sentence);
+        machine_.enter(machine_.enables_.any() ? MachineState::standstill : MachineState::disabled, sentence);
     else if (machine_.state_ == MachineState::stopping)
         machine_.status_.reason += note_;
     if (!machine_.rack_.stop_latch().latched()) note_.clear();
