@@ -14,7 +14,7 @@ std::optional<std::int32_t> GcodeLines::executed_n_word() const {
 }
 
 bool GcodeLines::has_room() const {
-    return machine_.has_room() && machine_.stream().moves() < planner_blocks;
+    return machine_.programs().has_room() && machine_.stream().moves() < planner_blocks;
 }
 
 std::size_t GcodeLines::free_blocks() const {

@@ -243,7 +243,7 @@ void GrblSession::reset(ResetCause cause) {
     state_.reset();
     overrides_.reset_spindle();
     if (may && (cause == ResetCause::requested || !latched)) {
-        machine_.set_overrides(1, 1);
+        machine_.programs().set_overrides(1, 1);
         state_.reset_machine(is_stationary && !latched ? operate::StopOrigin{} : settings_.source("^X"));
     }
     begin_again(true);

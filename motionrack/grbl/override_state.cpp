@@ -43,8 +43,8 @@ bool is_override(Realtime what) {
 }
 
 Overrides OverrideState::now() const {
-    return {static_cast<int>(std::lround(machine_.feed_override() * 100)),
-            static_cast<int>(std::lround(machine_.rapid_override() * 100)), spindle_};
+    return {static_cast<int>(std::lround(machine_.programs().feed_override() * 100)),
+            static_cast<int>(std::lround(machine_.programs().rapid_override() * 100)), spindle_};
 }
 
 void OverrideState::change(Realtime what) {
@@ -53,12 +53,12 @@ void OverrideState::change(Realtime what) {
     int& value = next.*step.which;
     value = std::clamp(step.absolute ? step.percent : value + step.percent, min_override, max_override);
     spindle_ = next.spindle;
-    machine_.set_overrides(next.feed / 100.0, next.rapid / 100.0);
+    machine_.programs().set_overrides(next.feed / 100.0, next.rapid / 100.0);
 }
 
 void OverrideState::end_program() {
     spindle_ = 100;
-    machine_.set_overrides(1, 1);
+    machine_.programs().set_overrides(1, 1);
 }
 
 void OverrideState::reset_spindle() {

@@ -80,7 +80,7 @@ int SenderSettings::restore(const std::string& text) {
     if (what != '$' && what != '#' && what != '*') return error_unknown;
     if (!control()) return error_locked;
     if (what != '#') own_ = SessionSettingValues();
-    if (what != '$' && !machine_.clear_offsets()) return error_not_idle;
+    if (what != '$' && !machine_.programs().clear_offsets()) return error_not_idle;
     if (what == '*') {
         startup_lines_ = {};
         build_text_.clear();

@@ -145,14 +145,7 @@ Result<void> Machine::enable(bool on, std::string_view axes) {
 Result<void> Machine::begin_program(std::string text, std::string name) {
     MOTIONRACK_CHECK(may_start("The program was not started"));
     MOTIONRACK_CHECK(ready_for_lines("The program was not started"));
-    stream_->reset_modal_state();
-    const control::gcode::ProgramCheck check = control::gcode::check_program(text, stream_->fresh_settings(), 1, name);
-    if (!check.problems.empty()) return tl::unexpected<Error>(check.problems.front());
-    program_ = std::move(text);
-    program_name_ = std::move(name);
-    program_feed_.emplace(*stream_, program_, stream_->fresh_settings(), program_name_);
-    line_count_ = static_cast<std::int32_t>(check.lines);
-    program_runs_ = true;
+    MOTIONRACK_CHECK(programs_.begin(std::move(text), std::move(name)));
     enter(MachineState::moving);
     return {};
 }
@@ -168,13 +161,13 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
     if (Result<void> can = rack::check_released(rack_.stop_latch(), "The line was not accepted"); !can)
         return refuse(can.error().message);
     if (Result<void> can = may_start("The line was not accepted"); !can) return refuse(can.error().message);
-    if (program_runs_) return refuse("The line was not accepted: a program runs. Stop it or wait for its end.");
-    if (!has_room()) return refuse("The line was not accepted: the queue is full until earlier lines are executed.");
+    if (programs_.runs()) return refuse("The line was not accepted: a program runs. Stop it or wait for its end.");
+    if (!programs_.has_room())
+        return refuse("The line was not accepted: the queue is full until earlier lines are executed.");
     if (state_ != MachineState::moving && state_ != MachineState::hold)
         if (Result<void> can = ready_for_lines("The line was not accepted"); !can) return refuse(can.error().message);
-    if (auto read = stream_->line(text, number); !read) return read;
-    last_line_ = now();
-    if (stream_->has_work() && state_ == MachineState::standstill) enter(MachineState::moving);
+    if (auto read = programs_.line(text, number, now()); !read) return read;
+    if (stream().has_work() && state_ == MachineState::standstill) enter(MachineState::moving);
     return {};
 }
 
@@ -182,7 +175,7 @@ Result<void> Machine::hold() {
     if (state_ != MachineState::moving)
         return not_now(
             fmt::format("A hold is not possible: the machine is in state '{}'. Nothing was changed.", name_of(state_)));
-    stream_->hold();
+    programs_.stream().hold();
     return {};
 }
 
@@ -192,7 +185,7 @@ Result<void> Machine::resume() {
             fmt::format("A resume is not possible: the machine is in state '{}'. Nothing was moved.", name_of(state_)));
     MOTIONRACK_CHECK(may_begin("Not resumed"));
     door_.give_back_tools(status_);
-    stream_->resume();
+    programs_.stream().resume();
     enter(MachineState::moving);
     return {};
 }
@@ -207,9 +200,8 @@ void Machine::stop(const StopOrigin& by) {
 
 void Machine::cancel(const StopOrigin& by) {
     const StopReport report = stop_report(now(), by, state_, at_work());
-    program_feed_.reset();
-    program_runs_ = false;
-    stream_->stop();
+    programs_.drop();
+    programs_.stream().stop();
     home_stop_ = true;
     home_wanted_.reset();
     jogs_.let_go();
@@ -245,7 +237,7 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     MOTIONRACK_CHECK(jogs_.accept(axis, origin));
     MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), "Not jogged"));
     MOTIONRACK_CHECK(door_.check_closed("Not jogged"));
-    if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
+    if (state_ != MachineState::jogging || programs_.stream().has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(speed)) return fail(ErrorKind::invalid_input, "Not jogged: the jog speed is not a number.");
@@ -277,15 +269,16 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
 
 Result<void> Machine::jog_to(const control::Point& target, double speed) {
     MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), "Not jogged"));
-    if (state_ != MachineState::jogging || !stream_->has_work()) MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
-    if (!stream_->has_room()) return not_now("Not jogged: the queue of jogs is full; wait for earlier jogs.");
+    if (state_ != MachineState::jogging || !programs_.stream().has_work())
+        MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
+    if (!programs_.stream().has_room()) return not_now("Not jogged: the queue of jogs is full; wait for earlier jogs.");
     if (!std::isfinite(speed) || !(speed > 0))
         return fail(ErrorKind::invalid_input, fmt::format("Not jogged: a jog speed of {} is not a motion.", speed));
     const control::MachineLimits limits = rack_.config().limits();
     control::Move move;
     int moving = 0;
     for (std::size_t i = 0; i < target.size(); ++i) {
-        const double from = stream_->interpreter().position()[i], slack = control::gcode::limit_slack;
+        const double from = programs_.stream().interpreter().position()[i], slack = control::gcode::limit_slack;
         if (target[i] == from) continue;
         if (!std::isfinite(target[i]) || !limits[i].present)
             return fail(ErrorKind::invalid_input,
@@ -304,9 +297,8 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
     move.tolerance_mm = rack_.config().controller.default_path_tolerance_mm;
     move.feed = speed;
     move.end = target;
-    stream_->move(move);
-    last_line_ = now();
-    if (stream_->has_work()) enter(MachineState::jogging);
+    programs_.move(move, now());
+    if (programs_.stream().has_work()) enter(MachineState::jogging);
     return {};
 }
 
@@ -337,7 +329,7 @@ Result<void> Machine::set_position(char axis, double position) {
 
 void Machine::set_coolant(bool mist, bool flood) {
     if (rack_.stop_latch().latched()) return;
-    stream_->set_coolant(mist, flood);
+    programs_.stream().set_coolant(mist, flood);
     status_.mist = mist;
     status_.flood = flood;
 }
@@ -345,8 +337,8 @@ void Machine::set_coolant(bool mist, bool flood) {
 void Machine::forbid_starts(std::string source, std::string text) {
     if (!no_starts_.empty()) return;
     no_starts_ = text;
-    if (state_ == MachineState::moving && !stream_->last_probe().runs)
-        stream_->hold();
+    if (state_ == MachineState::moving && !programs_.stream().last_probe().runs)
+        programs_.stream().hold();
     else if (!idle(state_) && state_ != MachineState::hold)
         cancel({"", "", "Alarm"});
     alarms_.raise(now(), std::move(source), std::move(text)).stays = true;

@@ -18,16 +18,14 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <motionrack/control/gcode/program_reader.hpp>
 #include <motionrack/control/no_axes.hpp>
-#include <motionrack/control/program_feed.hpp>
-#include <motionrack/control/stream_executor.hpp>
 #include <motionrack/operate/alarm_list.hpp>
 #include <motionrack/operate/axis_enables.hpp>
 #include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
 #include <motionrack/operate/manual_access.hpp>
 #include <motionrack/operate/position_validity.hpp>
+#include <motionrack/operate/program_run.hpp>
 #include <motionrack/operate/service.hpp>
 #include <motionrack/operate/status.hpp>
 #include <motionrack/rack/frame_monitor.hpp>
@@ -90,9 +88,8 @@ class Machine {
     Result<void> enable(bool on, std::string_view axes = {});
     /// Checks a whole program, then starts it. Errors: invalid_input: its first problem with line and column.
     Result<void> begin_program(std::string text, std::string name);
-    /// Appends one line to the pending ones. Refused: a program runs, no room.
+    /// Appends one line to the pending ones. Refused: a program runs, no room (see ProgramRun::has_room).
     control::gcode::Outcome<void> line(std::string_view text, std::int32_t number);
-    bool has_room() const { return stream_->has_room() && !program_runs_; }
     Result<void> hold();
     Result<void> resume();
     /// STOP command: sets the rack's stop latch. All axes decelerate and stay stopped until a reset; programs and lines
@@ -117,12 +114,8 @@ class Machine {
     Result<void> home(std::string axes);
     /// Sets the position of an axis, which is valid then. Refused while something moves.
     Result<void> set_position(char axis, double position);
-    void set_overrides(double feed, double rapid) { stream_->set_overrides(feed_ = feed, rapid_ = rapid); }
-    void set_single_block(bool on) { stream_->set_single_block(single_block_ = on); }
     /// Switches the coolant immediately, otherwise like M7, M8 and M9. No effect while a stop is in force.
     void set_coolant(bool mist, bool flood);
-    /// Clears work offsets, G28 and G30. Refused while something moves.
-    Result<void> clear_offsets();
     /// As AlarmList::acknowledge.
     bool acknowledge_alarm(std::int64_t alarm) { return alarms_.acknowledge(alarm); }
     /// Blocks starts because the machine's actions can no longer be recorded. Until the process restarts, no program,
@@ -134,9 +127,6 @@ class Machine {
     /// Requires that anything may begin to move or to radiate, whatever the state of the axes. Errors: refused while a
     /// stop is in force or the door is open, and after forbid_starts.
     Result<void> may_begin(const char* what);
-    /// Sets the work offset so that the present position of an axis has this value (touch off), as G10 L20 does; mm or
-    /// degrees.
-    Result<void> touch_off(char axis, double value);
 
     // ---- queries, on the motion thread
     const Status& status() const { return status_; }
@@ -145,11 +135,11 @@ class Machine {
     bool has_orders() const { return stop_wanted_ || !positions_wanted_.empty(); }
     /// Returns true if the position of this axis is valid.
     bool position_valid(const rack::RackAxis& axis) const { return validity_.of(axis.letter); }
-    double feed_override() const { return feed_; }
-    double rapid_override() const { return rapid_; }
     /// Result of the last homing, if any.
     const std::optional<rack::HomingOutcome>& last_homing() const { return homed_; }
-    const control::StreamExecutor& stream() const { return *stream_; }
+    /// The running program, room for lines, overrides, single block and work offsets.
+    ProgramRun& programs() { return programs_; }
+    const control::StreamExecutor& stream() const { return programs_.stream(); }
     Jogs& jogs() { return jogs_; }
     /// Manual calls of a card's function library.
     Service& service() { return service_; }
@@ -173,7 +163,6 @@ class Machine {
     void slice();
     void step();
     void drive();
-    void feed_program();
     void jog_all();
     void home_all();
     void change_positions();
@@ -197,7 +186,7 @@ class Machine {
     rack::PeriodicSampler probe_;
     std::optional<rack::FrameMonitor> frames_;
     control::NoAxes no_axes_;
-    std::unique_ptr<control::StreamExecutor> stream_;
+    ProgramRun programs_;
     bool group_holds_ = false;  ///< true: the axis group drives; false: single axes
     bool hands_over_ = false;   ///< a card is being set up for another driver; its counters are meaningless
     PositionValidity validity_;
@@ -211,13 +200,6 @@ class Machine {
     bool stop_ordered_ = false;                  ///< the present error stop has no other cause than a command
     std::string no_starts_;                      ///< reason that blocks starts; empty: starts are permitted
     std::string ordered_by_;                     ///< description of the stop command in force; empty: none
-    // program, or single lines
-    std::string program_, program_name_;
-    std::optional<control::ProgramFeed> program_feed_;  ///< until the last line was read
-    std::int32_t line_count_ = 0;
-    bool program_runs_ = false, single_block_ = false;
-    Instant last_line_{};
-    double feed_ = 1, rapid_ = 1;
     // manual operation
     Jogs jogs_;
     std::optional<std::string> home_wanted_;
@@ -240,6 +222,9 @@ class Machine {
 inline Interrupt& host_of(rack::Rack& rack) {
     return rack.cards().front()->host();
 }
+/// Sets the work offset so that the present position of an axis has this value (touch off), as G10 L20 does; mm or
+/// degrees. Refused while something moves, and as Machine::line.
+Result<void> touch_off(Machine& machine, char axis, double value);
 /// Returns true if an axis of this rack can be homed.
 bool can_home(const rack::RackConfig& config);
 /// Errors: invalid_input, with a message that `what` was not done.

@@ -43,10 +43,10 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     settings.gcode.start = group->commanded_position();
     settings.accel_reserve = rack::accel_reserve_of(rack_);
     settings.jerk_limited = config.jerk_limited();
-    stream_ = std::make_unique<control::StreamExecutor>(*group, host_of(rack_), settings);
-    stream_->on_event([this](const control::gcode::CanonCall& step, std::int64_t) { pass_event(step); });
+    programs_.start(*group, host_of(rack_), settings);
+    programs_.stream().on_event([this](const control::gcode::CanonCall& step, std::int64_t) { pass_event(step); });
     group_holds_ = true;
-    rack_.set_stop_flag(stream_->stop_flag());
+    rack_.set_stop_flag(programs_.stream().stop_flag());
     rack_.on_slice(settings_.slice, [this] { slice(); });
     rack_.stop_latch().arm();
     if (!settings_.alarm.empty()) alarms_.raise(now(), "last run", settings_.alarm);
@@ -60,8 +60,8 @@ Result<void> Machine::take_group() {
     const Result<control::AxisGroup*> group = path_group(rack_, no_axes_);
     hands_over_ = false;
     if (!group) return tl::unexpected<Error>(group.error());
-    rack_.set_stop_flag(stream_->stop_flag());
-    stream_->resync_axes(**group);
+    rack_.set_stop_flag(programs_.stream().stop_flag());
+    programs_.stream().resync_axes(**group);
     group_holds_ = true;
     return {};
 }

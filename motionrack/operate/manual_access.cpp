@@ -31,7 +31,7 @@ Result<void> ManualAccess::check_write(const std::string& card) const {
 }
 
 Result<void> ManualAccess::request(const BusAccess& access, Answered ready) {
-    const bool is_stationary = idle(machine_.state_) && !machine_.stream_->has_work();
+    const bool is_stationary = idle(machine_.state_) && !machine_.programs_.stream().has_work();
     if (!is_stationary && !measures_only(machine_.rack_.config(), access.card))
         return fail(
             ErrorKind::refused,

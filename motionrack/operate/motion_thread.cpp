@@ -38,11 +38,11 @@ void Machine::take_stop() {
     latch.poll();
     for (std::string& text : latch.contacts().take_alarms()) alarms_.raise(now(), "emergency stop", std::move(text));
     const bool in_work =
-        (state_ == MachineState::moving && !stream_->last_probe().runs) || state_ == MachineState::hold;
+        (state_ == MachineState::moving && !programs_.stream().last_probe().runs) || state_ == MachineState::hold;
     if (std::optional<std::string> opened = door_.take_opening(state_, in_work)) {
         alarms_.raise(now(), "door", std::move(*opened));
         rack::react(rack_, rack::StopSource::stop_command);
-        if (state_ == MachineState::moving && in_work) stream_->hold();
+        if (state_ == MachineState::moving && in_work) programs_.stream().hold();
         if (!in_work && !idle(state_)) cancel();
         if (in_work) door_.keep_tools(status_);
         tools_off();
@@ -85,9 +85,10 @@ void Machine::step() {
     alarms_.raise(now(), validity_.poll(now(), state_));
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
-    const bool drives = stream_->state() == control::ExecutionState::running ||
-                        (state_ == MachineState::moving && stream_->state() == control::ExecutionState::feed_hold);
-    if (program_feed_ || stream_->has_work() || drives) return drive();
+    const bool drives =
+        programs_.stream().state() == control::ExecutionState::running ||
+        (state_ == MachineState::moving && programs_.stream().state() == control::ExecutionState::feed_hold);
+    if (programs_.has_lines() || programs_.stream().has_work() || drives) return drive();
     if (stop_wanted_) return wait_for_standstill();
     const rack::StopLatch& latch = rack_.stop_latch();
     const bool another_cause = state_ == MachineState::error_stop && stop_ordered_ && !latch.is_ordered();
@@ -134,7 +135,7 @@ void Machine::wait_for_standstill() {
     if (asked && reset) {
         stop_taken_ = false;
         ordered_by_.clear();
-        stream_->reset_modal_state();
+        programs_.stream().reset_modal_state();
         tools_off();
         alarms_.reset();
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
@@ -146,17 +147,12 @@ void Machine::wait_for_standstill() {
 
 // ---- lines and programs
 
-void Machine::feed_program() {
-    if (!program_feed_) return;
-    if (const auto fed = program_feed_->feed(); !fed) return failed(fed.error());
-    if (!program_feed_->more()) program_feed_.reset();
-}
-
 void Machine::drive() {
-    feed_program();
-    if (state_ == MachineState::error_stop) stream_->stop();  // discards what it has, so that no step waits for it
-    const bool more = program_feed_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
-    const Result<control::ExecutionState> driven = stream_->drive(more);
+    if (const auto fed = programs_.feed(); !fed) failed(fed.error());
+    if (state_ == MachineState::error_stop)
+        programs_.stream().stop();  // discards what it has, so that no step waits for it
+    const Result<control::ExecutionState> driven =
+        programs_.stream().drive(programs_.more_may_come(now(), settings_.quiet));
     if (!driven) return failed(driven.error());
     if (*driven != control::ExecutionState::running) rack_.stop_latch().settle();  // a stop by a card also ends a hold
     switch (*driven) {
@@ -172,9 +168,8 @@ void Machine::drive() {
             host_of(rack_).pass(settings_.slice);
             break;
         case control::ExecutionState::idle:
-            if (program_feed_) break;
-            if (program_runs_) stream_->reset_after_program();
-            program_runs_ = false;
+            if (programs_.has_lines()) break;
+            programs_.end();
             if (jogs_.any()) break;  // commanded while this motion ended
             if (state_ == MachineState::moving || state_ == MachineState::jogging) enter(MachineState::standstill);
             break;
@@ -242,17 +237,16 @@ void Machine::change_positions() {
 
 /// Describes the running or pending action in a few words.
 std::string Machine::at_work() const {
-    if (program_runs_) return fmt::format("{}, line {}", program_name_, stream_->current_line());
+    if (programs_.runs()) return fmt::format("{}, line {}", programs_.name(), programs_.stream().current_line());
     if (service_.on()) return "the service of card " + service_.card();
     if (state_ == MachineState::moving || state_ == MachineState::hold)
-        return fmt::format("line {}", stream_->current_line());
+        return fmt::format("line {}", programs_.stream().current_line());
     return state_ == MachineState::homing ? "homing" : state_ == MachineState::jogging ? "jog" : "machine";
 }
 
 void Machine::failed(const Error& error) {
     const std::string what = at_work();
-    program_feed_.reset();
-    program_runs_ = false;
+    programs_.drop();
     const rack::StopLatch& latch = rack_.stop_latch();
     const bool known =
         latch.latched() && latch.cause() != rack::StopSource::limit_switch && !alarm_source(latch).empty();
@@ -303,13 +297,7 @@ void Machine::publish_status() {
     for (rack::RunningAxis& axis : rack_.axes()) {
         status_.axes.push_back(look_at(axis, position_valid(axis.config), enables_.of(axis.config), now()));
     }
-    status_.program = program_name_;
-    status_.line = stream_->current_line();
-    status_.lines = line_count_;
-    status_.program_runs = program_runs_;
-    status_.single_block = single_block_;
-    status_.feed_override = feed_;
-    status_.rapid_override = rapid_;
+    programs_.report(status_);
     status_.service = service_.card();
     status_.real = service_.live() != nullptr;
     if (settings_.on_status) settings_.on_status(status_);

@@ -49,7 +49,7 @@ Result<void> Service::check_begin(const std::string& card) const {
     const std::string letters = axes_of(card);
     if (!letters.empty() || machine_.state_ != MachineState::disabled) MOTIONRACK_CHECK(machine_.ready(what));
     MOTIONRACK_CHECK(machine_.axes_may_move(what, letters));
-    if (machine_.stream_->has_work() || machine_.jogs_.any() || machine_.has_orders())
+    if (machine_.programs_.stream().has_work() || machine_.jogs_.any() || machine_.has_orders())
         return fail(
             ErrorKind::refused,
             fmt::format("{}: a command is still being executed. Nothing was changed; try again at once.", what));
@@ -211,7 +211,7 @@ void Service::finish() {
     }
     Result<void> taken;
     if (machine_.group_holds_)
-        machine_.rack_.set_stop_flag(machine_.stream_->stop_flag());
+        machine_.rack_.set_stop_flag(machine_.programs_.stream().stop_flag());
     else
         taken = machine_.take_group();
     const std::string sentence =

@@ -65,7 +65,7 @@ constexpr std::array motion = {
     OperationHandler{"touch_off",
                      [](PanelContext& context, const Caller&, const json& fields) -> Result<json> {
                          MOTIONRACK_TRY(const char letter, axis_of(context, fields));
-                         return accepted(context.machine.touch_off(letter, fields.at("value").get<double>()));
+                         return accepted(operate::touch_off(context.machine, letter, fields.at("value").get<double>()));
                      }},
     OperationHandler{"set_position",
                      [](PanelContext& context, const Caller&, const json& fields) -> Result<json> {

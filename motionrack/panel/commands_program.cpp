@@ -78,13 +78,13 @@ constexpr std::array program = {
     OperationHandler{"set_overrides",
                      [](PanelContext& context, const Caller&, const json& fields) -> Result<json> {
                          const operate::Status& status = context.machine.status();
-                         context.machine.set_overrides(fields.value("feed", status.feed_override),
-                                                       fields.value("rapid", status.rapid_override));
+                         context.machine.programs().set_overrides(fields.value("feed", status.feed_override),
+                                                                  fields.value("rapid", status.rapid_override));
                          return json::object();
                      }},
     OperationHandler{"set_single_block",
                      [](PanelContext& context, const Caller&, const json& fields) -> Result<json> {
-                         context.machine.set_single_block(fields.at("on").get<bool>());
+                         context.machine.programs().set_single_block(fields.at("on").get<bool>());
                          return json::object();
                      }},
     OperationHandler{"acknowledge_alarm",

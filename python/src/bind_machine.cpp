@@ -140,7 +140,7 @@ void bind_orders(Class& c) {
                 refuse(fmt::format(
                     "The overrides are {} and {}; feed is more than 0 up to 2, rapid up to 1. Nothing was changed.",
                     feed, rapid));
-            ordered(self, [&](Machine& machine) { return machine.set_overrides(feed, rapid), Done(); });
+            ordered(self, [&](Machine& machine) { return machine.programs().set_overrides(feed, rapid), Done(); });
         },
         py::arg("feed"), py::arg("rapid"));
     c.def(

@@ -296,8 +296,8 @@ class Lives {
             case 2:
                 (void)machine_->enable(true);
                 laws.ordered(Order::enable);
-                machine_->set_overrides(1, 1);
-                machine_->set_single_block(false);
+                machine_->programs().set_overrides(1, 1);
+                machine_->programs().set_single_block(false);
                 return;
             case 3:
                 for (const operate::AxisStatus& axis : machine_->status().axes) {

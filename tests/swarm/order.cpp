@@ -139,11 +139,11 @@ Result<void> declare(Machine& machine, Draws& draws) {
     return {};
 }
 Result<void> set_overrides(Machine& machine, Draws& draws) {
-    machine.set_overrides(draws.number(0.01, 2), draws.number(0.01, 1));
+    machine.programs().set_overrides(draws.number(0.01, 2), draws.number(0.01, 1));
     return {};
 }
 Result<void> single_block(Machine& machine, Draws& draws) {
-    machine.set_single_block(draws.one_in(2));
+    machine.programs().set_single_block(draws.one_in(2));
     return {};
 }
 Result<void> coolant(Machine& machine, Draws& draws) {
@@ -155,7 +155,7 @@ Result<void> acknowledge(Machine& machine, Draws& draws) {
     return {};
 }
 Result<void> touch_off(Machine& machine, Draws& draws) {
-    return machine.touch_off(some_letter(machine, draws), draws.number(-20, 20));
+    return operate::touch_off(machine, some_letter(machine, draws), draws.number(-20, 20));
 }
 
 /// A card of the machine: every rack has one with motion and a library.

@@ -110,7 +110,8 @@ const std::array<Doing, 12> doings = {{
     {"waits at M0", "G1X1F3000\nM0\n", zigzag},
     {"jogs", "", [](int i) { return "$J=G91X" + std::string(i % 3 == 2 ? "-2" : "3") + "F1500\n"; }},
     {"probes", "G38.2X280F1200\n", zigzag, false, far_probe},
-    {"executes single blocks", "", zigzag, false, no_switches, [](operate::Machine& m) { m.set_single_block(true); }},
+    {"executes single blocks", "", zigzag, false, no_switches,
+     [](operate::Machine& m) { m.programs().set_single_block(true); }},
     {"sends lines beside a page's program", "", zigzag, false, no_switches,
      [](operate::Machine& m) {
          ASSERT_TRUE(m.enable(true));
@@ -130,7 +131,7 @@ double some_instant(std::mt19937& random) {
 
 /// After the stop was reset, a line of the sender moves the machine.
 void expect_to_move(Bench& b) {
-    b.machine->set_single_block(false);
+    b.machine->programs().set_single_block(false);
     const std::int64_t stood = b.machine->status().axes[0].pulses;
     EXPECT_EQ(b.ask("G91 G1 X0.5 F600\n", 0.02), "ok\r\n");
     b.until_idle();

@@ -61,7 +61,7 @@ Seen jog_on(const JogCase& one) {
     for (double t = 0.1; t < last; t += one.every, ++n)
         o.at(t, [&one, n](Machine& m) {
             const double speed = n % 2 == 1 && one.next_speed > 0 ? one.next_speed : one.speed;
-            if (one.overrides) m.set_overrides(n % 2 == 0 ? 2 : 0.1, n % 2 == 0 ? 1 : 0.2);
+            if (one.overrides) m.programs().set_overrides(n % 2 == 0 ? 2 : 0.1, n % 2 == 0 ? 1 : 0.2);
             static_cast<void>(m.jog('X', one.direction * speed));
         });
     o.machine->listen([&](const Status& status) {

@@ -213,8 +213,8 @@ TEST_F(JournalWriterTest, ReportsAlarmsSettingsAndInvalidPositions) {
     run(
         {}, [](const Status& s) { return s.axes[0].commanded > 50; },
         [this](Machine& m) {
-            m.set_overrides(0.5, 1);
-            m.set_single_block(true);
+            m.programs().set_overrides(0.5, 1);
+            m.programs().set_single_block(true);
             ASSERT_TRUE(m.wires().force("estop", 0));
             quit_on(MachineState::error_stop);
         },

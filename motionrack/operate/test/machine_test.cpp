@@ -193,8 +193,8 @@ TEST(Machine, AppliesOverridesAndSingleBlockToAProgram) {
     Operated o(two_axes());
     int holds = 0;
     o.at(0.1, [](Machine& m) {
-        m.set_single_block(true);
-        m.set_overrides(0.5, 1);
+        m.programs().set_single_block(true);
+        m.programs().set_overrides(0.5, 1);
         EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nG1 X30\n", "p"));
     });
     for (double t = 0.5; t < 8; t += 0.5)

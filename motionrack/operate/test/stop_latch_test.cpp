@@ -84,12 +84,12 @@ TEST(StopLatch, StopsAMachineWaitingAtM0) {
 TEST(StopLatch, StopsAMachineInSingleBlock) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
-        m.set_single_block(true);
+        m.programs().set_single_block(true);
         EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nG1 X80\n", "p"));
     });
     o.at(1.5, [](Machine& m) { EXPECT_EQ(m.state(), MachineState::hold); });
     press_and_release(o);
-    o.at(2.3, [](Machine& m) { m.set_single_block(false); });
+    o.at(2.3, [](Machine& m) { m.programs().set_single_block(false); });
     expect_latched_until_reset(o, 20);
 }
 

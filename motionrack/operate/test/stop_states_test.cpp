@@ -105,7 +105,7 @@ constexpr State states[] = {
     {"m0", MachineState::hold, [](Operated& o, double) { program(o, "G21 G90 F1200\nG1 X104\nM0\nG1 X200\nM2\n"); }},
     {"single_block", MachineState::hold,
      [](Operated& o, double) {
-         o.at(0.04, [](Machine& m) { m.set_single_block(true); });
+         o.at(0.04, [](Machine& m) { m.programs().set_single_block(true); });
          program(o, "G21 G90 F1200\nG1 X104\nG1 X200\nM2\n");
      }},
     {"probing", MachineState::moving, [](Operated& o, double) { program(o, "G21 G90\nG38.2 X290 F1200\nM2\n"); }},

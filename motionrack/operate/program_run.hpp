@@ -1,0 +1,70 @@
+// Programs and single lines of an operated machine: the executor, what it is fed, and the operator's settings for it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <motionrack/control/program_feed.hpp>
+#include <motionrack/control/stream_executor.hpp>
+#include <motionrack/operate/status.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace motionrack::operate {
+
+/// Used only by the motion thread.
+class ProgramRun {
+  public:
+    /// Makes the executor. Call first, once.
+    void start(control::AxisGroup& axes, Interrupt& host, const control::StreamExecutorSettings& settings);
+    control::StreamExecutor& stream() { return *stream_; }
+    const control::StreamExecutor& stream() const { return *stream_; }
+
+    // ---- a whole program
+    /// Checks it, then begins it. Errors: invalid_input: its first problem with line and column.
+    Result<void> begin(std::string text, std::string name);
+    /// Feeds its lines while the executor has room. Errors: a line cannot be executed.
+    control::gcode::Outcome<void> feed();
+    /// Returns true until its last line was fed.
+    bool has_lines() const { return feed_.has_value(); }
+    bool runs() const { return runs_; }
+    /// Ends a program whose lines are all executed, if there is one.
+    void end();
+    /// Drops the lines that were not fed yet.
+    void drop();
+    /// Name of the program that was started last.
+    const std::string& name() const { return name_; }
+
+    // ---- single lines
+    bool has_room() const { return stream_->has_room() && !runs_; }
+    /// Queues a line. Requires has_room(). On an error it has no effect.
+    control::gcode::Outcome<void> line(std::string_view text, std::int32_t number, Instant now);
+    /// Queues a move that does not come from a line.
+    void move(const control::Move& move, Instant now);
+    /// Returns true if lines may follow soon: of a program, or of a sender that has paused for less than `quiet`.
+    bool more_may_come(Instant now, Duration quiet) const;
+
+    // ---- settings
+    void set_overrides(double feed, double rapid) {
+        stream_->set_overrides(feed_override_ = feed, rapid_override_ = rapid);
+    }
+    double feed_override() const { return feed_override_; }
+    double rapid_override() const { return rapid_override_; }
+    void set_single_block(bool on) { stream_->set_single_block(single_block_ = on); }
+    /// Clears work offsets, G28 and G30. Refused while something moves.
+    Result<void> clear_offsets();
+
+    /// Writes name, lines and settings into a status.
+    void report(Status& status) const;
+
+  private:
+    std::unique_ptr<control::StreamExecutor> stream_;
+    std::string text_, name_;
+    std::optional<control::ProgramFeed> feed_;  ///< until the last line was read
+    std::int32_t line_count_ = 0;
+    bool runs_ = false, single_block_ = false;
+    Instant last_line_{};  ///< when the last single line or move came
+    double feed_override_ = 1, rapid_override_ = 1;
+};
+
+}  // namespace motionrack::operate
