@@ -18,15 +18,6 @@ StopReport stop_report(Instant at, const StopOrigin& by, MachineState state, con
     return {at, by, state, fmt::format("{}{}{}: {}.", by.kind, who, from, what), false};
 }
 
-/// Reports a stop that has a source. The first of several gives the reason, since a page sends its STOP on two
-/// channels.
-void report_stop(const StopReport& report, std::string& why,
-                 const std::vector<std::function<void(const StopReport&)>>& listeners) {
-    if (report.source.kind.empty()) return;
-    if (!idle(report.state) && (report.state != MachineState::stopping || why.empty())) why = report.text;
-    for (const auto& call : listeners) call(report);
-}
-
 tl::unexpected<Error> not_now(std::string text) {
     return fail(ErrorKind::refused, std::move(text));
 }
@@ -76,7 +67,7 @@ void Machine::post(std::function<void()> work) {
 
 void Machine::quit() {
     post([this] {
-        cancel(idle(state_) ? StopOrigin{} : StopOrigin{"", "", "Shutdown"});
+        cancel(idle(state()) ? StopOrigin{} : StopOrigin{"", "", "Shutdown"});
         quit_ = true;
     });
 }
@@ -89,13 +80,13 @@ Result<void> Machine::ready(const char* what) {
     const auto refuse = [&](const std::string& why) {
         return not_now(fmt::format("{}: {}. Nothing was moved.", what, why));
     };
-    if (state_ == MachineState::disabled) return refuse("the machine is disabled; enable it first");
-    if (state_ == MachineState::error_stop)
+    if (state() == MachineState::disabled) return refuse("the machine is disabled; enable it first");
+    if (state() == MachineState::error_stop)
         return refuse("the machine is in error stop; see its alarm, remove the cause and reset it first");
-    if (state_ == MachineState::service)
+    if (state() == MachineState::service)
         return refuse(fmt::format("card {} is in service; end the service first", service_.card()));
-    if (state_ != MachineState::standstill)
-        return refuse(fmt::format("the machine is in state '{}'; stop it, or wait for standstill", name_of(state_)));
+    if (state() != MachineState::standstill)
+        return refuse(fmt::format("the machine is in state '{}'; stop it, or wait for standstill", name_of(state())));
     if (reset_wanted_) return refuse("a reset is being carried out; try again at once");
     if (manual_access_.any()) return refuse("a card is being accessed; try again at once");
     if (const char letter = manual_access_.moving_axis(); letter != '\0')
@@ -138,7 +129,7 @@ Result<void> Machine::enable(bool on, std::string_view axes) {
         MOTIONRACK_CHECK(axis_named(rack_.config(), on ? "Nothing was enabled" : "Nothing was disabled", letter));
     if (!on) cancel({"", "", "Disabling"});
     enables_.set(on, axes);
-    if (on && state_ == MachineState::disabled) enter(MachineState::standstill);
+    if (on && state() == MachineState::disabled) publisher_.enter(MachineState::standstill);
     return {};
 }
 
@@ -146,7 +137,7 @@ Result<void> Machine::begin_program(std::string text, std::string name) {
     MOTIONRACK_CHECK(may_start("The program was not started"));
     MOTIONRACK_CHECK(ready_for_lines("The program was not started"));
     MOTIONRACK_CHECK(programs_.begin(std::move(text), std::move(name)));
-    enter(MachineState::moving);
+    publisher_.enter(MachineState::moving);
     return {};
 }
 
@@ -164,42 +155,42 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
     if (programs_.runs()) return refuse("The line was not accepted: a program runs. Stop it or wait for its end.");
     if (!programs_.has_room())
         return refuse("The line was not accepted: the queue is full until earlier lines are executed.");
-    if (state_ != MachineState::moving && state_ != MachineState::hold)
+    if (state() != MachineState::moving && state() != MachineState::hold)
         if (Result<void> can = ready_for_lines("The line was not accepted"); !can) return refuse(can.error().message);
     if (auto read = programs_.line(text, number, now()); !read) return read;
-    if (stream().has_work() && state_ == MachineState::standstill) enter(MachineState::moving);
+    if (stream().has_work() && state() == MachineState::standstill) publisher_.enter(MachineState::moving);
     return {};
 }
 
 Result<void> Machine::hold() {
-    if (state_ != MachineState::moving)
-        return not_now(
-            fmt::format("A hold is not possible: the machine is in state '{}'. Nothing was changed.", name_of(state_)));
+    if (state() != MachineState::moving)
+        return not_now(fmt::format("A hold is not possible: the machine is in state '{}'. Nothing was changed.",
+                                   name_of(state())));
     programs_.stream().hold();
     return {};
 }
 
 Result<void> Machine::resume() {
-    if (state_ != MachineState::hold)
-        return not_now(
-            fmt::format("A resume is not possible: the machine is in state '{}'. Nothing was moved.", name_of(state_)));
+    if (state() != MachineState::hold)
+        return not_now(fmt::format("A resume is not possible: the machine is in state '{}'. Nothing was moved.",
+                                   name_of(state())));
     MOTIONRACK_CHECK(may_begin("Not resumed"));
-    door_.give_back_tools(status_);
+    door_.give_back_tools(publisher_.status());
     programs_.stream().resume();
-    enter(MachineState::moving);
+    publisher_.enter(MachineState::moving);
     return {};
 }
 
 void Machine::stop(const StopOrigin& by) {
-    const StopReport report = stop_report(now(), by, state_, at_work());
+    const StopReport report = stop_report(now(), by, state(), at_work());
     ordered_by_ = by.kind.empty() ? std::string() : report.text;
     rack_.stop_latch().stop();
     take_stop();
-    report_stop(report, status_.reason, stop_listeners_);
+    publisher_.report_stop(report);
 }
 
 void Machine::cancel(const StopOrigin& by) {
-    const StopReport report = stop_report(now(), by, state_, at_work());
+    const StopReport report = stop_report(now(), by, state(), at_work());
     programs_.drop();
     programs_.stream().stop();
     home_stop_ = true;
@@ -208,17 +199,17 @@ void Machine::cancel(const StopOrigin& by) {
     service_.break_off();
     door_.forget_tools();
     stop_wanted_ = true;
-    stops_at_rest_ = idle(state_);
-    if (!idle(state_) && state_ != MachineState::stopping) enter(MachineState::stopping);
-    report_stop(report, status_.reason, stop_listeners_);
+    stops_at_rest_ = idle(state());
+    if (!idle(state()) && state() != MachineState::stopping) publisher_.enter(MachineState::stopping);
+    publisher_.report_stop(report);
 }
 
 void Machine::reset(const StopOrigin& by) {
-    StopReport report = stop_report(now(), by, state_, at_work());
-    report.releases = idle(state_);
+    StopReport report = stop_report(now(), by, state(), at_work());
+    report.releases = idle(state());
     cancel();
     reset_wanted_ = rack_.stop_latch().trips();
-    report_stop(report, status_.reason, stop_listeners_);
+    publisher_.report_stop(report);
 }
 
 namespace {
@@ -237,13 +228,13 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     MOTIONRACK_CHECK(jogs_.accept(axis, origin));
     MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), "Not jogged"));
     MOTIONRACK_CHECK(door_.check_closed("Not jogged"));
-    if (state_ != MachineState::jogging || programs_.stream().has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
+    if (state() != MachineState::jogging || programs_.stream().has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(speed)) return fail(ErrorKind::invalid_input, "Not jogged: the jog speed is not a number.");
     MOTIONRACK_CHECK(check_jog_speed(*found, speed));
     jogs_.hold(axis, speed, origin.session);
-    enter(MachineState::jogging);
+    publisher_.enter(MachineState::jogging);
     return {};
 }
 
@@ -263,13 +254,13 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
                         "was moved.",
                         std::fabs(distance), found->unit(), axis, travel));
     jogs_.move(axis, distance, speed);
-    enter(MachineState::jogging);
+    publisher_.enter(MachineState::jogging);
     return {};
 }
 
 Result<void> Machine::jog_to(const control::Point& target, double speed) {
     MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), "Not jogged"));
-    if (state_ != MachineState::jogging || !programs_.stream().has_work())
+    if (state() != MachineState::jogging || !programs_.stream().has_work())
         MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
     if (!programs_.stream().has_room()) return not_now("Not jogged: the queue of jogs is full; wait for earlier jogs.");
     if (!std::isfinite(speed) || !(speed > 0))
@@ -298,7 +289,7 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
     move.feed = speed;
     move.end = target;
     programs_.move(move, now());
-    if (programs_.stream().has_work()) enter(MachineState::jogging);
+    if (programs_.stream().has_work()) publisher_.enter(MachineState::jogging);
     return {};
 }
 
@@ -314,7 +305,7 @@ Result<void> Machine::home(std::string axes) {
     MOTIONRACK_CHECK(axes_may_move("Not homed", homed));
     home_wanted_ = std::move(axes);
     home_stop_ = false;
-    enter(MachineState::homing);
+    publisher_.enter(MachineState::homing);
     return {};
 }
 
@@ -330,16 +321,15 @@ Result<void> Machine::set_position(char axis, double position) {
 void Machine::set_coolant(bool mist, bool flood) {
     if (rack_.stop_latch().latched()) return;
     programs_.stream().set_coolant(mist, flood);
-    status_.mist = mist;
-    status_.flood = flood;
+    publisher_.set_coolant(mist, flood);
 }
 
 void Machine::forbid_starts(std::string source, std::string text) {
     if (!no_starts_.empty()) return;
     no_starts_ = text;
-    if (state_ == MachineState::moving && !programs_.stream().last_probe().runs)
+    if (state() == MachineState::moving && !programs_.stream().last_probe().runs)
         programs_.stream().hold();
-    else if (!idle(state_) && state_ != MachineState::hold)
+    else if (!idle(state()) && state() != MachineState::hold)
         cancel({"", "", "Alarm"});
     alarms_.raise(now(), std::move(source), std::move(text)).stays = true;
 }

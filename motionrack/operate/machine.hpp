@@ -28,6 +28,7 @@
 #include <motionrack/operate/program_run.hpp>
 #include <motionrack/operate/service.hpp>
 #include <motionrack/operate/status.hpp>
+#include <motionrack/operate/status_publisher.hpp>
 #include <motionrack/rack/frame_monitor.hpp>
 #include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/periodic_sampler.hpp>
@@ -78,8 +79,7 @@ class Machine {
     /// Adds listeners, called on the motion thread: for every slice's status, and for every stop and reset with a kind,
     /// within the command. Call before run().
     void listen(std::function<void(const Status&)> call, std::function<void(const StopReport&)> on_stop = {}) {
-        listeners_.push_back(std::move(call));
-        if (on_stop) stop_listeners_.push_back(std::move(on_stop));
+        publisher_.listen(std::move(call), std::move(on_stop));
     }
 
     // ---- commands, posted; refused ones (ErrorKind::refused) change nothing
@@ -129,8 +129,8 @@ class Machine {
     Result<void> may_begin(const char* what);
 
     // ---- queries, on the motion thread
-    const Status& status() const { return status_; }
-    MachineState state() const { return state_; }
+    const Status& status() const { return publisher_.status(); }
+    MachineState state() const { return publisher_.state(); }
     /// Returns true while a stop, a reset or a set position is pending.
     bool has_orders() const { return stop_wanted_ || !positions_wanted_.empty(); }
     /// Returns true if the position of this axis is valid.
@@ -174,10 +174,6 @@ class Machine {
     Result<void> ready(const char* what);
     Result<void> axes_may_move(const char* what, std::string_view axes) const;
     Result<void> ready_for_lines(const char* what);
-    void pass_event(const control::gcode::CanonCall& step);
-    void tools_off();
-    void publish_status();
-    void enter(MachineState state, std::string why = {});
 
     MachineSettings settings_;
     rack::Rack rack_;
@@ -192,7 +188,8 @@ class Machine {
     PositionValidity validity_;
     Door door_;
     AxisEnables enables_{rack_.config()};
-    MachineState state_ = MachineState::disabled;
+    StatusPublisher publisher_{{rack_, validity_, enables_, programs_, service_}, settings_.on_status};
+    AlarmList alarms_{publisher_.status().alarms, settings_.max_alarms};
     bool quit_ = false, stop_wanted_ = false;
     bool stops_at_rest_ = false;                 ///< nothing was moving or pending at the last stop request
     std::optional<std::uint64_t> reset_wanted_;  ///< value of StopLatch::trips() at the reset command
@@ -208,11 +205,6 @@ class Machine {
     rack::SeenIndexes seen_indexes_;
     std::atomic<bool> home_stop_{false};
     ManualAccess manual_access_{*this};
-    // status and listeners
-    Status status_;
-    AlarmList alarms_{status_.alarms, settings_.max_alarms};
-    std::vector<std::function<void(const Status&)>> listeners_;
-    std::vector<std::function<void(const StopReport&)>> stop_listeners_;
     std::mutex lock_;
     std::vector<std::function<void()>> inbox_;
     Service service_{*this};  ///< destroyed first: the stop of a real card takes time, in which slices run

@@ -44,13 +44,16 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     settings.accel_reserve = rack::accel_reserve_of(rack_);
     settings.jerk_limited = config.jerk_limited();
     programs_.start(*group, host_of(rack_), settings);
-    programs_.stream().on_event([this](const control::gcode::CanonCall& step, std::int64_t) { pass_event(step); });
+    programs_.stream().on_event([this](const control::gcode::CanonCall& event, std::int64_t) {
+        publisher_.pass_event(event);
+        if (settings_.on_event) settings_.on_event(event);
+    });
     group_holds_ = true;
     rack_.set_stop_flag(programs_.stream().stop_flag());
     rack_.on_slice(settings_.slice, [this] { slice(); });
     rack_.stop_latch().arm();
     if (!settings_.alarm.empty()) alarms_.raise(now(), "last run", settings_.alarm);
-    publish_status();
+    publisher_.publish();
     return {};
 }
 

@@ -31,12 +31,12 @@ Result<void> ManualAccess::check_write(const std::string& card) const {
 }
 
 Result<void> ManualAccess::request(const BusAccess& access, Answered ready) {
-    const bool is_stationary = idle(machine_.state_) && !machine_.programs_.stream().has_work();
+    const bool is_stationary = idle(machine_.publisher_.state()) && !machine_.programs_.stream().has_work();
     if (!is_stationary && !measures_only(machine_.rack_.config(), access.card))
         return fail(
             ErrorKind::refused,
             fmt::format("The card was not accessed: the machine is in state '{}'. Stop it, or wait for standstill.",
-                        name_of(machine_.state_)));
+                        name_of(machine_.publisher_.state())));
     MOTIONRACK_CHECK(
         rack::card_for_access(machine_.rack_, access.card, access.bits, access.address, access.value.has_value()));
     if (access.value && access.bits < 32 && *access.value >> access.bits != 0)

@@ -9,9 +9,9 @@ namespace motionrack::operate {
 // ---- the loop
 
 void Machine::run() {
-    while (!quit_ || state_ == MachineState::stopping || !positions_wanted_.empty()) step();
-    status_.ended = true;
-    publish_status();  // includes the final positions
+    while (!quit_ || state() == MachineState::stopping || !positions_wanted_.empty()) step();
+    publisher_.status().ended = true;
+    publisher_.publish();  // includes the final positions
 }
 
 /// Runs between two runs of the kernel, possibly in the middle of a motion.
@@ -27,8 +27,8 @@ void Machine::slice() {
         for (const std::function<void()>& one : work) one();
         take_stop();
         if (hands_over_) continue;
-        if (!is_stationary(state_)) alarms_.raise(now(), validity_.poll(now(), state_));  // a move may take long
-        publish_status();
+        if (!is_stationary(state())) alarms_.raise(now(), validity_.poll(now(), state()));  // a move may take long
+        publisher_.publish();
     }
 }
 
@@ -38,16 +38,16 @@ void Machine::take_stop() {
     latch.poll();
     for (std::string& text : latch.contacts().take_alarms()) alarms_.raise(now(), "emergency stop", std::move(text));
     const bool in_work =
-        (state_ == MachineState::moving && !programs_.stream().last_probe().runs) || state_ == MachineState::hold;
-    if (std::optional<std::string> opened = door_.take_opening(state_, in_work)) {
+        (state() == MachineState::moving && !programs_.stream().last_probe().runs) || state() == MachineState::hold;
+    if (std::optional<std::string> opened = door_.take_opening(state(), in_work)) {
         alarms_.raise(now(), "door", std::move(*opened));
         rack::react(rack_, rack::StopSource::stop_command);
-        if (state_ == MachineState::moving && in_work) programs_.stream().hold();
-        if (!in_work && !idle(state_)) cancel();
-        if (in_work) door_.keep_tools(status_);
-        tools_off();
+        if (state() == MachineState::moving && in_work) programs_.stream().hold();
+        if (!in_work && !idle(state())) cancel();
+        if (in_work) door_.keep_tools(publisher_.status());
+        publisher_.tools_off();
     }
-    if (latch.latched()) jogs_.let_go(), service_.break_off(), tools_off();
+    if (latch.latched()) jogs_.let_go(), service_.break_off(), publisher_.tools_off();
     if (!latch.halted() || std::exchange(stop_taken_, true)) return;
     cancel();
 }
@@ -82,17 +82,17 @@ void Machine::step() {
     }
     if (manual_access_.any()) return manual_access_.step();
     if (jogs_.any()) return jog_all();
-    alarms_.raise(now(), validity_.poll(now(), state_));
+    alarms_.raise(now(), validity_.poll(now(), state()));
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
     const bool drives =
         programs_.stream().state() == control::ExecutionState::running ||
-        (state_ == MachineState::moving && programs_.stream().state() == control::ExecutionState::feed_hold);
+        (state() == MachineState::moving && programs_.stream().state() == control::ExecutionState::feed_hold);
     if (programs_.has_lines() || programs_.stream().has_work() || drives) return drive();
     if (stop_wanted_) return wait_for_standstill();
     const rack::StopLatch& latch = rack_.stop_latch();
-    const bool another_cause = state_ == MachineState::error_stop && stop_ordered_ && !latch.is_ordered();
-    if (latch.latched() && (state_ != MachineState::error_stop || another_cause))
+    const bool another_cause = state() == MachineState::error_stop && stop_ordered_ && !latch.is_ordered();
+    if (latch.latched() && (state() != MachineState::error_stop || another_cause))
         return enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
     host_of(rack_).pass(settings_.slice);
 }
@@ -117,9 +117,9 @@ void Machine::enter_error_stop(std::string source, std::string text) {
         text += fmt::format(" The position of {} is not valid any more; home again.", unknown);
     if (source.empty() && !(lost + unknown).empty()) source = "position";
     if (!source.empty()) alarms_.supersede(lost + unknown);
-    tools_off();
+    publisher_.tools_off();
     if (!source.empty()) alarms_.raise(now(), std::move(source), text);
-    enter(MachineState::error_stop, std::move(text));
+    publisher_.enter(MachineState::error_stop, std::move(text));
 }
 
 /// Waits for standstill after a stop.
@@ -127,29 +127,29 @@ void Machine::wait_for_standstill() {
     stop_wanted_ = stops_at_rest_ = false;
     home_stop_ = false;
     rack::StopLatch& latch = rack_.stop_latch();
-    if (latch.latched() && state_ != MachineState::error_stop)  // losses stay, even with an immediate reset
+    if (latch.latched() && state() != MachineState::error_stop)  // losses stay, even with an immediate reset
         enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
     const bool asked = std::exchange(reset_wanted_, std::nullopt) == latch.trips();  // no cause since then
     const Result<void> reset = asked ? latch.reset() : Result<void>();
-    if (!reset) status_.reason = reset.error().message;
+    if (!reset) publisher_.status().reason = reset.error().message;
     if (asked && reset) {
         stop_taken_ = false;
         ordered_by_.clear();
         programs_.stream().reset_modal_state();
-        tools_off();
+        publisher_.tools_off();
         alarms_.reset();
-        if (state_ == MachineState::error_stop) enter(MachineState::standstill);
+        if (state() == MachineState::error_stop) publisher_.enter(MachineState::standstill);
     }
-    if (state_ == MachineState::stopping) enter(MachineState::standstill, status_.reason);
+    if (state() == MachineState::stopping) publisher_.enter(MachineState::standstill, publisher_.status().reason);
     enables_.settle();
-    if (!enables_.any() && state_ == MachineState::standstill) enter(MachineState::disabled);
+    if (!enables_.any() && state() == MachineState::standstill) publisher_.enter(MachineState::disabled);
 }
 
 // ---- lines and programs
 
 void Machine::drive() {
     if (const auto fed = programs_.feed(); !fed) failed(fed.error());
-    if (state_ == MachineState::error_stop)
+    if (state() == MachineState::error_stop)
         programs_.stream().stop();  // discards what it has, so that no step waits for it
     const Result<control::ExecutionState> driven =
         programs_.stream().drive(programs_.more_may_come(now(), settings_.quiet));
@@ -161,17 +161,18 @@ void Machine::drive() {
             break;
         case control::ExecutionState::feed_hold:
         case control::ExecutionState::paused:
-            if (state_ == MachineState::moving)
-                enter(MachineState::hold, *driven == control::ExecutionState::feed_hold
-                                              ? "feed hold; continue with resume"
-                                              : "the program waits; continue with resume");
+            if (state() == MachineState::moving)
+                publisher_.enter(MachineState::hold, *driven == control::ExecutionState::feed_hold
+                                                         ? "feed hold; continue with resume"
+                                                         : "the program waits; continue with resume");
             host_of(rack_).pass(settings_.slice);
             break;
         case control::ExecutionState::idle:
             if (programs_.has_lines()) break;
             programs_.end();
             if (jogs_.any()) break;  // commanded while this motion ended
-            if (state_ == MachineState::moving || state_ == MachineState::jogging) enter(MachineState::standstill);
+            if (state() == MachineState::moving || state() == MachineState::jogging)
+                publisher_.enter(MachineState::standstill);
             break;
         case control::ExecutionState::running:
             break;
@@ -185,7 +186,7 @@ void Machine::jog_all() {
     const auto stops = [this](char letter) { return stop_wanted_ || rack_.stop_latch().is_to_brake(letter); };
     for (const Jogs::Ended& one : jogs_.step(take, now(), stops)) {
         if (one.how || one.how.error().kind == ErrorKind::stopped) continue;
-        status_.reason = one.how.error().message;
+        publisher_.status().reason = one.how.error().message;
         if (one.position_valid || !validity_.of(one.letter)) continue;
         validity_.invalidate(one.letter);  // it stopped without a ramp, or has lost its counts
         alarms_.supersede({&one.letter, 1});
@@ -196,14 +197,15 @@ void Machine::jog_all() {
     if (jogs_.any()) return host_of(rack_).pass(settings_.slice);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
     if (jogs_.any()) return;  // commanded while the axes were handed over
-    if (state_ == MachineState::jogging) enter(MachineState::standstill, std::exchange(status_.reason, {}));
+    if (state() == MachineState::jogging)
+        publisher_.enter(MachineState::standstill, std::exchange(publisher_.status().reason, {}));
 }
 
 void Machine::home_all() {
     rack::HomingSettings settings;
     settings.axes = *std::exchange(home_wanted_, std::nullopt);
     settings.stop = &home_stop_;
-    settings.progress = [this](const rack::HomingProgress& progress) { status_.homing = progress.states; };
+    settings.progress = [this](const rack::HomingProgress& progress) { publisher_.status().homing = progress.states; };
     settings.seen_indexes = &seen_indexes_;
     settings.on_homed = [this](char letter, Instant since) { validity_.begin_at_home(letter, since); };
     group_holds_ = false;
@@ -212,7 +214,8 @@ void Machine::home_all() {
         if (axis.begun && !axis.outcome.homed) validity_.invalidate(axis.letter);
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
     if (!homed.ended && homed.ended.error().kind == ErrorKind::machine) return failed(homed.ended.error());
-    if (state_ == MachineState::homing) enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
+    if (state() == MachineState::homing)
+        publisher_.enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
 }
 
 void Machine::change_positions() {
@@ -222,7 +225,7 @@ void Machine::change_positions() {
         const Result<void> done = axis ? validity_.take(**axis, declared) : tl::unexpected<Error>(axis.error());
         positions_wanted_.erase(positions_wanted_.begin());
         if (done) continue;
-        status_.reason = done.error().message;
+        publisher_.status().reason = done.error().message;
         if (!validity_.of(declared.letter)) continue;
         validity_.invalidate(declared.letter);
         alarms_.raise(now(), "position",
@@ -233,15 +236,15 @@ void Machine::change_positions() {
     if (Result<void> taken = take_group(); !taken) failed(taken.error());
 }
 
-// ---- reported status
+// ---- failures
 
 /// Describes the running or pending action in a few words.
 std::string Machine::at_work() const {
     if (programs_.runs()) return fmt::format("{}, line {}", programs_.name(), programs_.stream().current_line());
     if (service_.on()) return "the service of card " + service_.card();
-    if (state_ == MachineState::moving || state_ == MachineState::hold)
+    if (state() == MachineState::moving || state() == MachineState::hold)
         return fmt::format("line {}", programs_.stream().current_line());
-    return state_ == MachineState::homing ? "homing" : state_ == MachineState::jogging ? "jog" : "machine";
+    return state() == MachineState::homing ? "homing" : state() == MachineState::jogging ? "jog" : "machine";
 }
 
 void Machine::failed(const Error& error) {
@@ -251,57 +254,6 @@ void Machine::failed(const Error& error) {
     const bool known =
         latch.latched() && latch.cause() != rack::StopSource::limit_switch && !alarm_source(latch).empty();
     enter_error_stop(known ? alarm_source(latch) : what, error.text());
-}
-
-void Machine::enter(MachineState state, std::string why) {
-    state_ = state;
-    status_.reason = std::move(why);
-}
-
-void Machine::pass_event(const control::gcode::CanonCall& step) {
-    using Kind = control::gcode::CanonCallKind;
-    if (step.kind == Kind::spindle_speed || step.kind == Kind::spindle) status_.spindle_rpm = step.speed_rpm;
-    if (step.kind == Kind::spindle) status_.spindle = step.spindle;
-    if (step.kind == Kind::coolant) {
-        status_.mist = step.mist;
-        status_.flood = step.flood;
-    }
-    if (step.kind == Kind::end) tools_off();
-    if (settings_.on_event) settings_.on_event(step);
-}
-
-void Machine::tools_off() {
-    status_.spindle = control::gcode::Spindle::off;
-    status_.mist = status_.flood = false;
-}
-
-static AxisStatus look_at(rack::RunningAxis& axis, bool position_valid, bool enabled, Instant now) {
-    AxisStatus out{.letter = axis.config.letter, .position_valid = position_valid, .enabled = enabled};
-    out.rotary = axis.config.index() >= 3;
-    out.pulses = axis.card->pulse_counter(axis.channel);
-    out.counts = axis.card->encoder_counter(axis.channel);
-    const double origin = axis.card->counter_origin();
-    out.commanded = origin + static_cast<double>(out.pulses) / axis.config.pulses_per_unit();
-    const double counts = axis.config.counts_per_unit();
-    out.actual = counts > 0 ? origin + static_cast<double>(out.counts) / counts : out.commanded;
-    out.true_position = axis.machine->position(now);
-    out.velocity = axis.velocity(now);
-    return out;
-}
-
-void Machine::publish_status() {
-    status_.at = now();
-    ++status_.sequence;
-    status_.state = state_;
-    status_.axes.clear();
-    for (rack::RunningAxis& axis : rack_.axes()) {
-        status_.axes.push_back(look_at(axis, position_valid(axis.config), enables_.of(axis.config), now()));
-    }
-    programs_.report(status_);
-    status_.service = service_.card();
-    status_.real = service_.live() != nullptr;
-    if (settings_.on_status) settings_.on_status(status_);
-    for (const auto& call : listeners_) call(status_);
 }
 
 }  // namespace motionrack::operate

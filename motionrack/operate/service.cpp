@@ -47,7 +47,8 @@ Result<void> Service::check_begin(const std::string& card) const {
     MOTIONRACK_CHECK(library_of(machine_.rack_, card));
     MOTIONRACK_CHECK(machine_.may_begin(what));
     const std::string letters = axes_of(card);
-    if (!letters.empty() || machine_.state_ != MachineState::disabled) MOTIONRACK_CHECK(machine_.ready(what));
+    if (!letters.empty() || machine_.publisher_.state() != MachineState::disabled)
+        MOTIONRACK_CHECK(machine_.ready(what));
     MOTIONRACK_CHECK(machine_.axes_may_move(what, letters));
     if (machine_.programs_.stream().has_work() || machine_.jogs_.any() || machine_.has_orders())
         return fail(
@@ -65,7 +66,7 @@ Result<void> Service::begin(const std::string& card, const StopOrigin& by, const
     stop_ = false;
     note_.clear();
     const LivePlace* const live = live_place(card);
-    machine_.enter(
+    machine_.publisher_.enter(
         MachineState::service,
         fmt::format("card {} is in service by {}{}", card, by.who.empty() ? std::string("this program") : by.who,
                     live == nullptr ? "" : fmt::format("; it is a real one, at {}", live->place)));
@@ -133,7 +134,7 @@ void Service::take() {
     machine_.hands_over_ = false;
     if (!begun) {
         stop_ = true;
-        machine_.status_.reason = begun.error().message;
+        machine_.publisher_.status().reason = begun.error().message;
         if (lost.empty())
             note_ = fmt::format(" The service of card {} was not started. {}", card_, begun.error().message);
     }
@@ -222,10 +223,11 @@ void Service::finish() {
     if (pending_) std::exchange(pending_, std::nullopt)->ready(fail(ErrorKind::stopped, "Not called. " + sentence));
     if (const Callback reported = std::exchange(begun_, {})) reported(fail(ErrorKind::stopped, sentence));
     if (!taken) return machine_.failed(taken.error());
-    if (machine_.state_ == MachineState::service && !machine_.rack_.stop_latch().latched())
-        machine_.enter(machine_.enables_.any() ? MachineState::standstill : MachineState::disabled, sentence);
-    else if (machine_.state_ == MachineState::stopping)
-        machine_.status_.reason += note_;
+    if (machine_.publisher_.state() == MachineState::service && !machine_.rack_.stop_latch().latched())
+        machine_.publisher_.enter(machine_.enables_.any() ? MachineState::standstill : MachineState::disabled,
+                                  sentence);
+    else if (machine_.publisher_.state() == MachineState::stopping)
+        machine_.publisher_.status().reason += note_;
     if (!machine_.rack_.stop_latch().latched()) note_.clear();
     if (const Callback reported = std::exchange(ended_, {})) reported(sentence);
 }
