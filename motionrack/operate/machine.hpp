@@ -18,9 +18,9 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <motionrack/control/no_axes.hpp>
 #include <motionrack/operate/alarm_list.hpp>
 #include <motionrack/operate/axis_enables.hpp>
+#include <motionrack/operate/axis_handover.hpp>
 #include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
 #include <motionrack/operate/manual_access.hpp>
@@ -158,8 +158,6 @@ class Machine {
     friend class ManualAccess;
     Machine(const rack::RackConfig& config, MachineSettings settings);
     Result<void> start(const rack::RackConfig& config);
-    Result<void> take_group();
-    Result<control::Axis*> take_axis(char letter);
     void slice();
     void step();
     void drive();
@@ -181,10 +179,8 @@ class Machine {
     rack::WireTap tap_;
     rack::PeriodicSampler probe_;
     std::optional<rack::FrameMonitor> frames_;
-    control::NoAxes no_axes_;
     ProgramRun programs_;
-    bool group_holds_ = false;  ///< true: the axis group drives; false: single axes
-    bool hands_over_ = false;   ///< a card is being set up for another driver; its counters are meaningless
+    AxisHandover handover_{rack_, programs_};
     PositionValidity validity_;
     Door door_;
     AxisEnables enables_{rack_.config()};
@@ -210,10 +206,6 @@ class Machine {
     Service service_{*this};  ///< destroyed first: the stop of a real card takes time, in which slices run
 };
 
-/// Returns the rack's time and interrupt line for waits.
-inline Interrupt& host_of(rack::Rack& rack) {
-    return rack.cards().front()->host();
-}
 /// Sets the work offset so that the present position of an axis has this value (touch off), as G10 L20 does; mm or
 /// degrees. Refused while something moves, and as Machine::line.
 Result<void> touch_off(Machine& machine, char axis, double value);

@@ -72,12 +72,12 @@ char ManualAccess::moving_axis() const {
 }
 
 Result<void> ManualAccess::end_motion() {
-    machine_.group_holds_ = false;
+    machine_.handover_.release();
     for (const std::string& card : std::exchange(written_, {})) {
         const std::unique_ptr<FunctionLibrary> library = machine_.rack_.card(card)->take_library();
         stop_at_once(*library, host_of(machine_.rack_));
     }
-    return machine_.take_group();
+    return machine_.handover_.take_group();
 }
 
 }  // namespace motionrack::operate

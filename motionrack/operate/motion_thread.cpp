@@ -26,7 +26,7 @@ void Machine::slice() {
         }
         for (const std::function<void()>& one : work) one();
         take_stop();
-        if (hands_over_) continue;
+        if (handover_.in_progress()) continue;
         if (!is_stationary(state())) alarms_.raise(now(), validity_.poll(now(), state()));  // a move may take long
         publisher_.publish();
     }
@@ -182,7 +182,7 @@ void Machine::drive() {
 // ---- manual operation
 
 void Machine::jog_all() {
-    const auto take = [this](char letter) { return take_axis(letter); };
+    const auto take = [this](char letter) { return handover_.take_axis(letter); };
     const auto stops = [this](char letter) { return stop_wanted_ || rack_.stop_latch().is_to_brake(letter); };
     for (const Jogs::Ended& one : jogs_.step(take, now(), stops)) {
         if (one.how || one.how.error().kind == ErrorKind::stopped) continue;
@@ -195,7 +195,7 @@ void Machine::jog_all() {
         failed(one.how.error());
     }
     if (jogs_.any()) return host_of(rack_).pass(settings_.slice);
-    if (Result<void> taken = take_group(); !taken) return failed(taken.error());
+    if (Result<void> taken = handover_.take_group(); !taken) return failed(taken.error());
     if (jogs_.any()) return;  // commanded while the axes were handed over
     if (state() == MachineState::jogging)
         publisher_.enter(MachineState::standstill, std::exchange(publisher_.status().reason, {}));
@@ -208,11 +208,11 @@ void Machine::home_all() {
     settings.progress = [this](const rack::HomingProgress& progress) { publisher_.status().homing = progress.states; };
     settings.seen_indexes = &seen_indexes_;
     settings.on_homed = [this](char letter, Instant since) { validity_.begin_at_home(letter, since); };
-    group_holds_ = false;
+    handover_.release();
     const rack::HomingOutcome& homed = homed_.emplace(rack::home_axes(rack_, settings));
     for (const rack::HomedAxis& axis : homed.axes)
         if (axis.begun && !axis.outcome.homed) validity_.invalidate(axis.letter);
-    if (Result<void> taken = take_group(); !taken) return failed(taken.error());
+    if (Result<void> taken = handover_.take_group(); !taken) return failed(taken.error());
     if (!homed.ended && homed.ended.error().kind == ErrorKind::machine) return failed(homed.ended.error());
     if (state() == MachineState::homing)
         publisher_.enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
@@ -221,7 +221,7 @@ void Machine::home_all() {
 void Machine::change_positions() {
     for (std::size_t left = positions_wanted_.size(); left > 0; --left) {  // more may arrive meanwhile
         const Declared declared = positions_wanted_.front();
-        const Result<control::Axis*> axis = take_axis(declared.letter);
+        const Result<control::Axis*> axis = handover_.take_axis(declared.letter);
         const Result<void> done = axis ? validity_.take(**axis, declared) : tl::unexpected<Error>(axis.error());
         positions_wanted_.erase(positions_wanted_.begin());
         if (done) continue;
@@ -233,7 +233,7 @@ void Machine::change_positions() {
                                   done.error().message),
                       declared.letter);
     }
-    if (Result<void> taken = take_group(); !taken) failed(taken.error());
+    if (Result<void> taken = handover_.take_group(); !taken) failed(taken.error());
 }
 
 // ---- failures

@@ -128,10 +128,8 @@ void Service::take() {
     note_ = fmt::format(" The service of card {} has ended", card_);
     note_ += lost.empty() ? "." : fmt::format("; the position of {} is not valid: home it, or set its position.", lost);
     machine_.rack_.set_stop_flag(&stop_);
-    machine_.group_holds_ = machine_.group_holds_ && lost.empty();
-    machine_.hands_over_ = true;
-    const Result<void> begun = take_library();
-    machine_.hands_over_ = false;
+    if (!lost.empty()) machine_.handover_.release();
+    const Result<void> begun = machine_.handover_.hand_over([this] { return take_library(); });
     if (!begun) {
         stop_ = true;
         machine_.publisher_.status().reason = begun.error().message;
@@ -210,11 +208,7 @@ void Service::finish() {
         library_.reset();
         live_.reset();
     }
-    Result<void> taken;
-    if (machine_.group_holds_)
-        machine_.rack_.set_stop_flag(machine_.programs_.stream().stop_flag());
-    else
-        taken = machine_.take_group();
+    const Result<void> taken = machine_.handover_.take_back();
     const std::string sentence =
         note_.empty() ? fmt::format("The service of card {} was not started.", card_) : note_.substr(1);
     card_.clear();
