@@ -5,19 +5,19 @@
 
 namespace motionrack::operate {
 
-Alarm& AlarmList::raise(Instant at, std::string source, std::string text, char axis) {
+Alarm& AlarmList::raise(std::string source, std::string text, char axis) {
     if (axis != '\0') supersede({&axis, 1});
     alarms_.erase(std::remove_if(alarms_.begin(), alarms_.end(),
                                  [](const Alarm& alarm) { return !alarm.active && alarm.acknowledged; }),
                   alarms_.end());
     if (alarms_.size() >= max_) alarms_.erase(alarms_.begin());
-    alarms_.push_back({next_++, at, std::move(source), std::move(text)});
+    alarms_.push_back({next_++, rack_.kernel().now(), std::move(source), std::move(text)});
     alarms_.back().axis = axis;
     return alarms_.back();
 }
 
-void AlarmList::raise(Instant at, std::vector<Alarm> alarms) {
-    for (Alarm& one : alarms) raise(at, std::move(one.source), std::move(one.text), one.axis);
+void AlarmList::raise(std::vector<Alarm> alarms) {
+    for (Alarm& one : alarms) raise(std::move(one.source), std::move(one.text), one.axis);
 }
 
 void AlarmList::supersede(std::string_view axes) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <motionrack/base/time.hpp>
 #include <motionrack/operate/status.hpp>
+#include <motionrack/rack/rack.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,14 +12,15 @@ namespace motionrack::operate {
 
 class AlarmList {
   public:
-    /// `alarms`: where the status has them; it must outlive this. There are `max` at most.
-    AlarmList(std::vector<Alarm>& alarms, std::size_t max) : alarms_(alarms), max_(max) {}
+    /// `alarms`: where the status has them, `max` at most; their time is that of the rack. Both must outlive this.
+    AlarmList(const rack::Rack& rack, std::vector<Alarm>& alarms, std::size_t max)
+        : rack_(rack), alarms_(alarms), max_(max) {}
 
     /// Adds an active alarm; one of an axis replaces the axis' earlier ones. Ended and acknowledged alarms are removed
     /// first, then the oldest. The result is valid until the next alarm.
-    Alarm& raise(Instant at, std::string source, std::string text, char axis = '\0');
+    Alarm& raise(std::string source, std::string text, char axis = '\0');
     /// Adds alarms that have a source, a text and an axis.
-    void raise(Instant at, std::vector<Alarm> alarms);
+    void raise(std::vector<Alarm> alarms);
     /// Ends and acknowledges the alarms of these axes, because the alarm that is raised next also covers them.
     void supersede(std::string_view axes);
     /// Returns false if the alarm is unknown.
@@ -30,6 +31,7 @@ class AlarmList {
     void end_staying(std::string_view source);
 
   private:
+    const rack::Rack& rack_;
     std::vector<Alarm>& alarms_;
     std::size_t max_;
     std::int64_t next_ = 1;

@@ -331,7 +331,7 @@ void Machine::forbid_starts(std::string source, std::string text) {
         programs_.stream().hold();
     else if (!idle(state()) && state() != MachineState::hold)
         cancel({"", "", "Alarm"});
-    alarms_.raise(now(), std::move(source), std::move(text)).stays = true;
+    alarms_.raise(std::move(source), std::move(text)).stays = true;
 }
 
 Result<void> Machine::may_start(const char* what) const {

@@ -185,7 +185,7 @@ class Machine {
     Door door_;
     AxisEnables enables_{rack_.config()};
     StatusPublisher publisher_{{rack_, validity_, enables_, programs_, service_}, settings_.on_status};
-    AlarmList alarms_{publisher_.status().alarms, settings_.max_alarms};
+    AlarmList alarms_{rack_, publisher_.status().alarms, settings_.max_alarms};
     bool quit_ = false, stop_wanted_ = false;
     bool stops_at_rest_ = false;                 ///< nothing was moving or pending at the last stop request
     std::optional<std::uint64_t> reset_wanted_;  ///< value of StopLatch::trips() at the reset command

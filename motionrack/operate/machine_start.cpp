@@ -36,7 +36,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     });
     rack_.on_slice(settings_.slice, [this] { slice(); });
     rack_.stop_latch().arm();
-    if (!settings_.alarm.empty()) alarms_.raise(now(), "last run", settings_.alarm);
+    if (!settings_.alarm.empty()) alarms_.raise("last run", settings_.alarm);
     publisher_.publish();
     return {};
 }

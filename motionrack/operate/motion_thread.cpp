@@ -27,7 +27,7 @@ void Machine::slice() {
         for (const std::function<void()>& one : work) one();
         take_stop();
         if (handover_.in_progress()) continue;
-        if (!is_stationary(state())) alarms_.raise(now(), validity_.poll(now(), state()));  // a move may take long
+        if (!is_stationary(state())) alarms_.raise(validity_.poll(now(), state()));  // a move may take long
         publisher_.publish();
     }
 }
@@ -36,11 +36,11 @@ void Machine::slice() {
 void Machine::take_stop() {
     rack::StopLatch& latch = rack_.stop_latch();
     latch.poll();
-    for (std::string& text : latch.contacts().take_alarms()) alarms_.raise(now(), "emergency stop", std::move(text));
+    for (std::string& text : latch.contacts().take_alarms()) alarms_.raise("emergency stop", std::move(text));
     const bool in_work =
         (state() == MachineState::moving && !programs_.stream().last_probe().runs) || state() == MachineState::hold;
     if (std::optional<std::string> opened = door_.take_opening(state(), in_work)) {
-        alarms_.raise(now(), "door", std::move(*opened));
+        alarms_.raise("door", std::move(*opened));
         rack::react(rack_, rack::StopSource::stop_command);
         if (state() == MachineState::moving && in_work) programs_.stream().hold();
         if (!in_work && !idle(state())) cancel();
@@ -82,7 +82,7 @@ void Machine::step() {
     }
     if (manual_access_.any()) return manual_access_.step();
     if (jogs_.any()) return jog_all();
-    alarms_.raise(now(), validity_.poll(now(), state()));
+    alarms_.raise(validity_.poll(now(), state()));
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
     const bool drives =
@@ -118,7 +118,7 @@ void Machine::enter_error_stop(std::string source, std::string text) {
     if (source.empty() && !(lost + unknown).empty()) source = "position";
     if (!source.empty()) alarms_.supersede(lost + unknown);
     publisher_.tools_off();
-    if (!source.empty()) alarms_.raise(now(), std::move(source), text);
+    if (!source.empty()) alarms_.raise(std::move(source), text);
     publisher_.enter(MachineState::error_stop, std::move(text));
 }
 
@@ -228,7 +228,7 @@ void Machine::change_positions() {
         publisher_.status().reason = done.error().message;
         if (!validity_.of(declared.letter)) continue;
         validity_.invalidate(declared.letter);
-        alarms_.raise(now(), "position",
+        alarms_.raise("position",
                       fmt::format("The position of axis {} was not set, and is not valid any more: {}", declared.letter,
                                   done.error().message),
                       declared.letter);

@@ -198,7 +198,7 @@ void Service::stop_axes() {
     const std::string source = "card " + card_;
     if (stop.is_stationary) machine_.alarms_.end_staying(source);
     if (stop.sentence.empty()) return;
-    machine_.alarms_.raise(machine_.now(), source, stop.sentence).stays = !stop.is_stationary;
+    machine_.alarms_.raise(source, stop.sentence).stays = !stop.is_stationary;
 }
 
 /// Ends all motion of the card and initialises it for the controller.
