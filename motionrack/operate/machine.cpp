@@ -101,7 +101,7 @@ Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const c
 
 /// Requires enabled axes that stay so, without a pending set position, which applies to the position at its command.
 Result<void> Machine::axes_may_move(const char* what, std::string_view axes) const {
-    if (!positions_wanted_.empty())
+    if (positions_.any())
         return not_now(fmt::format("{}: positions of axes are being set; try again. Nothing was moved.", what));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (axes.find(axis.letter) != std::string_view::npos && !enables_.may_move(axis))
@@ -314,7 +314,7 @@ Result<void> Machine::set_position(char axis, double position) {
     MOTIONRACK_CHECK(axis_named(rack_.config(), "The position was not set", axis));
     if (!std::isfinite(position))
         return fail(ErrorKind::invalid_input, "The position was not set: it is not a number.");
-    positions_wanted_.push_back(validity_.declared(axis, position));
+    positions_.request(axis, position);
     return {};
 }
 

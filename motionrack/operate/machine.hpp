@@ -24,6 +24,7 @@
 #include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
 #include <motionrack/operate/manual_access.hpp>
+#include <motionrack/operate/position_setter.hpp>
 #include <motionrack/operate/position_validity.hpp>
 #include <motionrack/operate/program_run.hpp>
 #include <motionrack/operate/service.hpp>
@@ -132,7 +133,7 @@ class Machine {
     const Status& status() const { return publisher_.status(); }
     MachineState state() const { return publisher_.state(); }
     /// Returns true while a stop, a reset or a set position is pending.
-    bool has_orders() const { return stop_wanted_ || !positions_wanted_.empty(); }
+    bool has_orders() const { return stop_wanted_ || positions_.any(); }
     /// Returns true if the position of this axis is valid.
     bool position_valid(const rack::RackAxis& axis) const { return validity_.of(axis.letter); }
     /// Result of the last homing, if any.
@@ -163,7 +164,6 @@ class Machine {
     void drive();
     void jog_all();
     void home_all();
-    void change_positions();
     void failed(const Error& error);
     std::string at_work() const;
     void wait_for_standstill();
@@ -186,6 +186,7 @@ class Machine {
     AxisEnables enables_{rack_.config()};
     StatusPublisher publisher_{{rack_, validity_, enables_, programs_, service_}, settings_.on_status};
     AlarmList alarms_{rack_, publisher_.status().alarms, settings_.max_alarms};
+    PositionSetter positions_{validity_, handover_, publisher_, alarms_};
     bool quit_ = false, stop_wanted_ = false;
     bool stops_at_rest_ = false;                 ///< nothing was moving or pending at the last stop request
     std::optional<std::uint64_t> reset_wanted_;  ///< value of StopLatch::trips() at the reset command
@@ -196,7 +197,6 @@ class Machine {
     // manual operation
     Jogs jogs_;
     std::optional<std::string> home_wanted_;
-    std::vector<Declared> positions_wanted_;  ///< pending until all of them are set
     std::optional<rack::HomingOutcome> homed_;
     rack::SeenIndexes seen_indexes_;
     std::atomic<bool> home_stop_{false};

@@ -9,7 +9,7 @@ namespace motionrack::operate {
 // ---- the loop
 
 void Machine::run() {
-    while (!quit_ || state() == MachineState::stopping || !positions_wanted_.empty()) step();
+    while (!quit_ || state() == MachineState::stopping || positions_.any()) step();
     publisher_.status().ended = true;
     publisher_.publish();  // includes the final positions
 }
@@ -84,7 +84,10 @@ void Machine::step() {
     if (jogs_.any()) return jog_all();
     alarms_.raise(validity_.poll(now(), state()));
     if (home_wanted_) return home_all();
-    if (!positions_wanted_.empty()) return change_positions();
+    if (positions_.any()) {
+        if (Result<void> set = positions_.step(); !set) failed(set.error());
+        return;
+    }
     const bool drives =
         programs_.stream().state() == control::ExecutionState::running ||
         (state() == MachineState::moving && programs_.stream().state() == control::ExecutionState::feed_hold);
@@ -216,24 +219,6 @@ void Machine::home_all() {
     if (!homed.ended && homed.ended.error().kind == ErrorKind::machine) return failed(homed.ended.error());
     if (state() == MachineState::homing)
         publisher_.enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
-}
-
-void Machine::change_positions() {
-    for (std::size_t left = positions_wanted_.size(); left > 0; --left) {  // more may arrive meanwhile
-        const Declared declared = positions_wanted_.front();
-        const Result<control::Axis*> axis = handover_.take_axis(declared.letter);
-        const Result<void> done = axis ? validity_.take(**axis, declared) : tl::unexpected<Error>(axis.error());
-        positions_wanted_.erase(positions_wanted_.begin());
-        if (done) continue;
-        publisher_.status().reason = done.error().message;
-        if (!validity_.of(declared.letter)) continue;
-        validity_.invalidate(declared.letter);
-        alarms_.raise("position",
-                      fmt::format("The position of axis {} was not set, and is not valid any more: {}", declared.letter,
-                                  done.error().message),
-                      declared.letter);
-    }
-    if (Result<void> taken = handover_.take_group(); !taken) failed(taken.error());
 }
 
 // ---- failures
