@@ -87,7 +87,7 @@ Result<void> Machine::ready(const char* what) {
         return refuse(fmt::format("card {} is in service; end the service first", service_.card()));
     if (state() != MachineState::standstill)
         return refuse(fmt::format("the machine is in state '{}'; stop it, or wait for standstill", name_of(state())));
-    if (reset_wanted_) return refuse("a reset is being carried out; try again at once");
+    if (pending_stop_.wants_reset()) return refuse("a reset is being carried out; try again at once");
     if (manual_access_.any()) return refuse("a card is being accessed; try again at once");
     if (const char letter = manual_access_.moving_axis(); letter != '\0')
         return refuse(fmt::format("axis {} is moved by register writes; press STOP first", letter));
@@ -198,8 +198,7 @@ void Machine::cancel(const StopOrigin& by) {
     jogs_.let_go();
     service_.break_off();
     door_.forget_tools();
-    stop_wanted_ = true;
-    stops_at_rest_ = idle(state());
+    pending_stop_.request(idle(state()));
     if (!idle(state()) && state() != MachineState::stopping) publisher_.enter(MachineState::stopping);
     publisher_.report_stop(report);
 }
@@ -208,7 +207,7 @@ void Machine::reset(const StopOrigin& by) {
     StopReport report = stop_report(now(), by, state(), at_work());
     report.releases = idle(state());
     cancel();
-    reset_wanted_ = rack_.stop_latch().trips();
+    pending_stop_.request_reset(rack_.stop_latch().trips());
     publisher_.report_stop(report);
 }
 

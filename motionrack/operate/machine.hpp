@@ -24,6 +24,7 @@
 #include <motionrack/operate/door.hpp>
 #include <motionrack/operate/jogs.hpp>
 #include <motionrack/operate/manual_access.hpp>
+#include <motionrack/operate/pending_stop.hpp>
 #include <motionrack/operate/position_setter.hpp>
 #include <motionrack/operate/position_validity.hpp>
 #include <motionrack/operate/program_run.hpp>
@@ -133,7 +134,7 @@ class Machine {
     const Status& status() const { return publisher_.status(); }
     MachineState state() const { return publisher_.state(); }
     /// Returns true while a stop, a reset or a set position is pending.
-    bool has_orders() const { return stop_wanted_ || positions_.any(); }
+    bool has_orders() const { return pending_stop_.wanted() || positions_.any(); }
     /// Returns true if the position of this axis is valid.
     bool position_valid(const rack::RackAxis& axis) const { return validity_.of(axis.letter); }
     /// Result of the last homing, if any.
@@ -187,13 +188,12 @@ class Machine {
     StatusPublisher publisher_{{rack_, validity_, enables_, programs_, service_}, settings_.on_status};
     AlarmList alarms_{rack_, publisher_.status().alarms, settings_.max_alarms};
     PositionSetter positions_{validity_, handover_, publisher_, alarms_};
-    bool quit_ = false, stop_wanted_ = false;
-    bool stops_at_rest_ = false;                 ///< nothing was moving or pending at the last stop request
-    std::optional<std::uint64_t> reset_wanted_;  ///< value of StopLatch::trips() at the reset command
-    bool stop_taken_ = false;                    ///< the axes have received the stop of the stop latch
-    bool stop_ordered_ = false;                  ///< the present error stop has no other cause than a command
-    std::string no_starts_;                      ///< reason that blocks starts; empty: starts are permitted
-    std::string ordered_by_;                     ///< description of the stop command in force; empty: none
+    PendingStop pending_stop_;
+    bool quit_ = false;
+    bool stop_taken_ = false;    ///< the axes have received the stop of the stop latch
+    bool stop_ordered_ = false;  ///< the present error stop has no other cause than a command
+    std::string no_starts_;      ///< reason that blocks starts; empty: starts are permitted
+    std::string ordered_by_;     ///< description of the stop command in force; empty: none
     // manual operation
     Jogs jogs_;
     std::optional<std::string> home_wanted_;

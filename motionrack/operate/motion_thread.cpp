@@ -75,7 +75,7 @@ std::string stop_text(const rack::StopLatch& latch, const std::string& ordered_b
 
 void Machine::step() {
     if (service_.on()) return service_.step();
-    if (stop_wanted_ && stops_at_rest_) {  // before anything that was commanded after it
+    if (pending_stop_.comes_first()) {  // before anything that was commanded after it
         if (manual_access_.moving_axis() == '\0') return wait_for_standstill();
         if (Result<void> ended = manual_access_.end_motion(); !ended) failed(ended.error());
         return;
@@ -92,7 +92,7 @@ void Machine::step() {
         programs_.stream().state() == control::ExecutionState::running ||
         (state() == MachineState::moving && programs_.stream().state() == control::ExecutionState::feed_hold);
     if (programs_.has_lines() || programs_.stream().has_work() || drives) return drive();
-    if (stop_wanted_) return wait_for_standstill();
+    if (pending_stop_.wanted()) return wait_for_standstill();
     const rack::StopLatch& latch = rack_.stop_latch();
     const bool another_cause = state() == MachineState::error_stop && stop_ordered_ && !latch.is_ordered();
     if (latch.latched() && (state() != MachineState::error_stop || another_cause))
@@ -127,12 +127,12 @@ void Machine::enter_error_stop(std::string source, std::string text) {
 
 /// Waits for standstill after a stop.
 void Machine::wait_for_standstill() {
-    stop_wanted_ = stops_at_rest_ = false;
+    pending_stop_.end();
     home_stop_ = false;
     rack::StopLatch& latch = rack_.stop_latch();
     if (latch.latched() && state() != MachineState::error_stop)  // losses stay, even with an immediate reset
         enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
-    const bool asked = std::exchange(reset_wanted_, std::nullopt) == latch.trips();  // no cause since then
+    const bool asked = pending_stop_.take_reset(latch.trips());
     const Result<void> reset = asked ? latch.reset() : Result<void>();
     if (!reset) publisher_.status().reason = reset.error().message;
     if (asked && reset) {
@@ -186,7 +186,7 @@ void Machine::drive() {
 
 void Machine::jog_all() {
     const auto take = [this](char letter) { return handover_.take_axis(letter); };
-    const auto stops = [this](char letter) { return stop_wanted_ || rack_.stop_latch().is_to_brake(letter); };
+    const auto stops = [this](char letter) { return pending_stop_.wanted() || rack_.stop_latch().is_to_brake(letter); };
     for (const Jogs::Ended& one : jogs_.step(take, now(), stops)) {
         if (one.how || one.how.error().kind == ErrorKind::stopped) continue;
         publisher_.status().reason = one.how.error().message;
@@ -194,7 +194,7 @@ void Machine::jog_all() {
         validity_.invalidate(one.letter);  // it stopped without a ramp, or has lost its counts
         alarms_.supersede({&one.letter, 1});
         jogs_.let_go();
-        stop_wanted_ = true;
+        pending_stop_.request();
         failed(one.how.error());
     }
     if (jogs_.any()) return host_of(rack_).pass(settings_.slice);
