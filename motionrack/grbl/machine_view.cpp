@@ -16,7 +16,7 @@ bool is_moving(const operate::Machine& machine) {
 
 bool is_settled(const operate::Machine& machine) {
     const MachineState state = machine.state();
-    return !machine.has_orders() && state != MachineState::stopping && state != MachineState::homing;
+    return !machine.conditions().has_pending() && state != MachineState::stopping && state != MachineState::homing;
 }
 
 /// Contacts open when they act; a missing contact is inactive.

@@ -22,12 +22,6 @@ tl::unexpected<Error> not_now(std::string text) {
     return fail(ErrorKind::refused, std::move(text));
 }
 
-Result<void> has_axes(const rack::RackConfig& config, const char* what) {
-    if (!config.axes.empty()) return {};
-    return not_now(
-        fmt::format("{}: the rack has no axes. Nothing was moved; add an [axis.X] section to the rack file.", what));
-}
-
 rack::RackConfig placed(rack::RackConfig config, const std::vector<InitialAxisState>& initial_axes) {
     for (const InitialAxisState& one : initial_axes)
         for (rack::RackAxis& axis : config.axes)
@@ -72,57 +66,7 @@ void Machine::quit() {
     });
 }
 
-// ---- preconditions of commands
-
-/// Requires standstill and an enabled machine.
-Result<void> Machine::ready(const char* what) {
-    MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), what));
-    const auto refuse = [&](const std::string& why) {
-        return not_now(fmt::format("{}: {}. Nothing was moved.", what, why));
-    };
-    if (state() == MachineState::disabled) return refuse("the machine is disabled; enable it first");
-    if (state() == MachineState::error_stop)
-        return refuse("the machine is in error stop; see its alarm, remove the cause and reset it first");
-    if (state() == MachineState::service)
-        return refuse(fmt::format("card {} is in service; end the service first", service_.card()));
-    if (state() != MachineState::standstill)
-        return refuse(fmt::format("the machine is in state '{}'; stop it, or wait for standstill", name_of(state())));
-    if (pending_stop_.wants_reset()) return refuse("a reset is being carried out; try again at once");
-    if (manual_access_.any()) return refuse("a card is being accessed; try again at once");
-    if (const char letter = manual_access_.moving_axis(); letter != '\0')
-        return refuse(fmt::format("axis {} is moved by register writes; press STOP first", letter));
-    return {};
-}
-
-Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const char* what, char letter) {
-    if (const rack::RackAxis* axis = config.axis(letter)) return axis;
-    return fail(ErrorKind::invalid_input, fmt::format("{}: the machine has no axis {}.", what, letter));
-}
-
-/// Requires enabled axes that stay so, without a pending set position, which applies to the position at its command.
-Result<void> Machine::axes_may_move(const char* what, std::string_view axes) const {
-    if (positions_.any())
-        return not_now(fmt::format("{}: positions of axes are being set; try again. Nothing was moved.", what));
-    for (const rack::RackAxis& axis : rack_.config().axes)
-        if (axes.find(axis.letter) != std::string_view::npos && !enables_.may_move(axis))
-            return not_now(
-                fmt::format("{}: axis {} is disabled; enable it first. Nothing was moved.", what, axis.letter));
-    return {};
-}
-
-/// Also requires that every axis is enabled and has a valid position.
-Result<void> Machine::ready_for_lines(const char* what) {
-    MOTIONRACK_CHECK(has_axes(rack_.config(), what));
-    MOTIONRACK_CHECK(ready(what));
-    MOTIONRACK_CHECK(door_.check_closed(what));
-    MOTIONRACK_CHECK(axes_may_move(what, {control::axis_letters.data(), control::axis_letters.size()}));
-    for (const rack::RackAxis& axis : rack_.config().axes)
-        if (!position_valid(axis))
-            return not_now(fmt::format(
-                "{}: the position of axis {} is not valid. Home it, or set its position. Nothing was moved.", what,
-                axis.letter));
-    return {};
-}
+// ---- commands
 
 Result<void> Machine::enable(bool on, std::string_view axes) {
     for (const char letter : axes)
@@ -134,8 +78,8 @@ Result<void> Machine::enable(bool on, std::string_view axes) {
 }
 
 Result<void> Machine::begin_program(std::string text, std::string name) {
-    MOTIONRACK_CHECK(may_start("The program was not started"));
-    MOTIONRACK_CHECK(ready_for_lines("The program was not started"));
+    MOTIONRACK_CHECK(conditions_.may_start("The program was not started"));
+    MOTIONRACK_CHECK(conditions_.ready_for_lines("The program was not started"));
     MOTIONRACK_CHECK(programs_.begin(std::move(text), std::move(name)));
     publisher_.enter(MachineState::moving);
     return {};
@@ -151,12 +95,13 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
     };
     if (Result<void> can = rack::check_released(rack_.stop_latch(), "The line was not accepted"); !can)
         return refuse(can.error().message);
-    if (Result<void> can = may_start("The line was not accepted"); !can) return refuse(can.error().message);
+    if (Result<void> can = conditions_.may_start("The line was not accepted"); !can) return refuse(can.error().message);
     if (programs_.runs()) return refuse("The line was not accepted: a program runs. Stop it or wait for its end.");
     if (!programs_.has_room())
         return refuse("The line was not accepted: the queue is full until earlier lines are executed.");
     if (state() != MachineState::moving && state() != MachineState::hold)
-        if (Result<void> can = ready_for_lines("The line was not accepted"); !can) return refuse(can.error().message);
+        if (Result<void> can = conditions_.ready_for_lines("The line was not accepted"); !can)
+            return refuse(can.error().message);
     if (auto read = programs_.line(text, number, now()); !read) return read;
     if (stream().has_work() && state() == MachineState::standstill) publisher_.enter(MachineState::moving);
     return {};
@@ -174,7 +119,7 @@ Result<void> Machine::resume() {
     if (state() != MachineState::hold)
         return not_now(fmt::format("A resume is not possible: the machine is in state '{}'. Nothing was moved.",
                                    name_of(state())));
-    MOTIONRACK_CHECK(may_begin("Not resumed"));
+    MOTIONRACK_CHECK(conditions_.may_begin("Not resumed"));
     door_.give_back_tools(publisher_.status());
     programs_.stream().resume();
     publisher_.enter(MachineState::moving);
@@ -227,8 +172,9 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
     MOTIONRACK_CHECK(jogs_.accept(axis, origin));
     MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), "Not jogged"));
     MOTIONRACK_CHECK(door_.check_closed("Not jogged"));
-    if (state() != MachineState::jogging || programs_.stream().has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
-    MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
+    if (state() != MachineState::jogging || programs_.stream().has_work())
+        MOTIONRACK_CHECK(conditions_.ready("Not jogged"));
+    MOTIONRACK_CHECK(conditions_.axes_may_move("Not jogged", {&axis, 1}));
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(speed)) return fail(ErrorKind::invalid_input, "Not jogged: the jog speed is not a number.");
     MOTIONRACK_CHECK(check_jog_speed(*found, speed));
@@ -238,9 +184,9 @@ Result<void> Machine::jog(char axis, double speed, const JogOrigin& origin) {
 }
 
 Result<void> Machine::jog_by(char axis, double distance, double speed) {
-    MOTIONRACK_CHECK(ready("Not jogged"));
+    MOTIONRACK_CHECK(conditions_.ready("Not jogged"));
     MOTIONRACK_CHECK(door_.check_closed("Not jogged"));
-    MOTIONRACK_CHECK(axes_may_move("Not jogged", {&axis, 1}));
+    MOTIONRACK_CHECK(conditions_.axes_may_move("Not jogged", {&axis, 1}));
     MOTIONRACK_TRY(const rack::RackAxis* found, axis_named(rack_.config(), "Not jogged", axis));
     if (!std::isfinite(distance) || !(speed > 0))
         return fail(ErrorKind::invalid_input,
@@ -260,7 +206,7 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
 Result<void> Machine::jog_to(const control::Point& target, double speed) {
     MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), "Not jogged"));
     if (state() != MachineState::jogging || !programs_.stream().has_work())
-        MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
+        MOTIONRACK_CHECK(conditions_.ready_for_lines("Not jogged"));
     if (!programs_.stream().has_room()) return not_now("Not jogged: the queue of jogs is full; wait for earlier jogs.");
     if (!std::isfinite(speed) || !(speed > 0))
         return fail(ErrorKind::invalid_input, fmt::format("Not jogged: a jog speed of {} is not a motion.", speed));
@@ -297,11 +243,11 @@ Result<void> Machine::home(std::string axes) {
     if (axes.empty())
         for (const rack::RackAxis& axis : rack_.config().axes)
             if (rack_.config().can_home(axis)) homed += axis.letter;
-    MOTIONRACK_CHECK(has_axes(rack_.config(), "Not homed"));
-    MOTIONRACK_CHECK(may_start("Not homed"));
-    MOTIONRACK_CHECK(ready("Not homed"));
+    MOTIONRACK_CHECK(conditions_.has_axes("Not homed"));
+    MOTIONRACK_CHECK(conditions_.may_start("Not homed"));
+    MOTIONRACK_CHECK(conditions_.ready("Not homed"));
     MOTIONRACK_CHECK(door_.check_closed("Not homed"));
-    MOTIONRACK_CHECK(axes_may_move("Not homed", homed));
+    MOTIONRACK_CHECK(conditions_.axes_may_move("Not homed", homed));
     home_wanted_ = std::move(axes);
     home_stop_ = false;
     publisher_.enter(MachineState::homing);
@@ -309,7 +255,7 @@ Result<void> Machine::home(std::string axes) {
 }
 
 Result<void> Machine::set_position(char axis, double position) {
-    MOTIONRACK_CHECK(ready("The position was not set"));
+    MOTIONRACK_CHECK(conditions_.ready("The position was not set"));
     MOTIONRACK_CHECK(axis_named(rack_.config(), "The position was not set", axis));
     if (!std::isfinite(position))
         return fail(ErrorKind::invalid_input, "The position was not set: it is not a number.");
@@ -324,24 +270,13 @@ void Machine::set_coolant(bool mist, bool flood) {
 }
 
 void Machine::forbid_starts(std::string source, std::string text) {
-    if (!no_starts_.empty()) return;
-    no_starts_ = text;
+    if (conditions_.forbids()) return;
+    conditions_.forbid(text);
     if (state() == MachineState::moving && !programs_.stream().last_probe().runs)
         programs_.stream().hold();
     else if (!idle(state()) && state() != MachineState::hold)
         cancel({"", "", "Alarm"});
     alarms_.raise(std::move(source), std::move(text)).stays = true;
-}
-
-Result<void> Machine::may_start(const char* what) const {
-    if (no_starts_.empty()) return {};
-    return not_now(fmt::format("{}: {}", what, no_starts_));
-}
-
-Result<void> Machine::may_begin(const char* what) {
-    MOTIONRACK_CHECK(rack::check_released(rack_.stop_latch(), what));
-    MOTIONRACK_CHECK(may_start(what));
-    return door_.check_closed(what);
 }
 
 }  // namespace motionrack::operate

@@ -29,6 +29,7 @@
 #include <motionrack/operate/position_validity.hpp>
 #include <motionrack/operate/program_run.hpp>
 #include <motionrack/operate/service.hpp>
+#include <motionrack/operate/start_conditions.hpp>
 #include <motionrack/operate/status.hpp>
 #include <motionrack/operate/status_publisher.hpp>
 #include <motionrack/rack/frame_monitor.hpp>
@@ -124,17 +125,11 @@ class Machine {
     /// line or homing starts and nothing resumes. Motion decelerates, a program by a feed hold; jogs remain possible.
     /// The first call raises a permanent alarm.
     void forbid_starts(std::string source, std::string text);
-    /// Errors: refused after forbid_starts.
-    Result<void> may_start(const char* what) const;
-    /// Requires that anything may begin to move or to radiate, whatever the state of the axes. Errors: refused while a
-    /// stop is in force or the door is open, and after forbid_starts.
-    Result<void> may_begin(const char* what);
 
     // ---- queries, on the motion thread
     const Status& status() const { return publisher_.status(); }
     MachineState state() const { return publisher_.state(); }
-    /// Returns true while a stop, a reset or a set position is pending.
-    bool has_orders() const { return pending_stop_.wanted() || positions_.any(); }
+    const StartConditions& conditions() const { return conditions_; }
     /// Returns true if the position of this axis is valid.
     bool position_valid(const rack::RackAxis& axis) const { return validity_.of(axis.letter); }
     /// Result of the last homing, if any.
@@ -170,9 +165,6 @@ class Machine {
     void wait_for_standstill();
     void take_stop();
     void enter_error_stop(std::string source, std::string text);
-    Result<void> ready(const char* what);
-    Result<void> axes_may_move(const char* what, std::string_view axes) const;
-    Result<void> ready_for_lines(const char* what);
 
     MachineSettings settings_;
     rack::Rack rack_;
@@ -189,10 +181,11 @@ class Machine {
     AlarmList alarms_{rack_, publisher_.status().alarms, settings_.max_alarms};
     PositionSetter positions_{validity_, handover_, publisher_, alarms_};
     PendingStop pending_stop_;
+    StartConditions conditions_{
+        {rack_, publisher_, enables_, validity_, door_, positions_, pending_stop_, manual_access_, service_}};
     bool quit_ = false;
     bool stop_taken_ = false;    ///< the axes have received the stop of the stop latch
     bool stop_ordered_ = false;  ///< the present error stop has no other cause than a command
-    std::string no_starts_;      ///< reason that blocks starts; empty: starts are permitted
     std::string ordered_by_;     ///< description of the stop command in force; empty: none
     // manual operation
     Jogs jogs_;
@@ -211,7 +204,5 @@ class Machine {
 Result<void> touch_off(Machine& machine, char axis, double value);
 /// Returns true if an axis of this rack can be homed.
 bool can_home(const rack::RackConfig& config);
-/// Errors: invalid_input, with a message that `what` was not done.
-Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const char* what, char letter);
 
 }  // namespace motionrack::operate

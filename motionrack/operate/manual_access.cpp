@@ -24,10 +24,10 @@ bool measures_only(const rack::RackConfig& config, const std::string& card) {
 Result<void> ManualAccess::check_write(const std::string& card) const {
     if (measures_only(machine_.rack_.config(), card)) {
         MOTIONRACK_CHECK(rack::check_released(machine_.rack_.stop_latch(), not_written));
-        return machine_.may_start(not_written);
+        return machine_.conditions_.may_start(not_written);
     }
-    MOTIONRACK_CHECK(machine_.may_begin(not_written));
-    return machine_.axes_may_move(not_written, machine_.service_.axes_of(card));
+    MOTIONRACK_CHECK(machine_.conditions_.may_begin(not_written));
+    return machine_.conditions_.axes_may_move(not_written, machine_.service_.axes_of(card));
 }
 
 Result<void> ManualAccess::request(const BusAccess& access, Answered ready) {

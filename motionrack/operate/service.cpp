@@ -45,12 +45,12 @@ Result<void> Service::check_begin(const std::string& card) const {
         return fail(ErrorKind::refused,
                     fmt::format("{}: card {} is in service. Nothing was changed; end that first.", what, card_));
     MOTIONRACK_CHECK(library_of(machine_.rack_, card));
-    MOTIONRACK_CHECK(machine_.may_begin(what));
+    MOTIONRACK_CHECK(machine_.conditions_.may_begin(what));
     const std::string letters = axes_of(card);
     if (!letters.empty() || machine_.publisher_.state() != MachineState::disabled)
-        MOTIONRACK_CHECK(machine_.ready(what));
-    MOTIONRACK_CHECK(machine_.axes_may_move(what, letters));
-    if (machine_.programs_.stream().has_work() || machine_.jogs_.any() || machine_.has_orders())
+        MOTIONRACK_CHECK(machine_.conditions_.ready(what));
+    MOTIONRACK_CHECK(machine_.conditions_.axes_may_move(what, letters));
+    if (machine_.programs_.stream().has_work() || machine_.jogs_.any() || machine_.conditions_.has_pending())
         return fail(
             ErrorKind::refused,
             fmt::format("{}: a command is still being executed. Nothing was changed; try again at once.", what));

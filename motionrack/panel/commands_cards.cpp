@@ -41,7 +41,7 @@ Result<json> set_estop(PanelContext& context, bool pressed) {
 }
 
 Result<json> start_part(PanelContext& context, const std::string& part) {
-    MOTIONRACK_CHECK(context.machine.may_begin("Nothing was started"));
+    MOTIONRACK_CHECK(context.machine.conditions().may_begin("Nothing was started"));
     return accepted(rack::start_part(context.machine.rack(), part));
 }
 

@@ -88,7 +88,7 @@ struct MarkCommand {
 
 /// Refuses a command that something has ended since it was given.
 Result<void> check_still_wanted(PanelContext& context, const MarkCommand& command) {
-    MOTIONRACK_CHECK(context.machine.may_begin("Not marked"));
+    MOTIONRACK_CHECK(context.machine.conditions().may_begin("Not marked"));
     const auto refuse = [](const char* why) {
         return fail(ErrorKind::refused,
                     fmt::format("Not marked: {} while the list was made. Nothing was marked; mark again.", why));
@@ -141,7 +141,7 @@ Result<void> check_card(PanelContext& context, const std::string& card) {
 void mark(PanelContext& context, const Caller& caller, const json& fields, Ready ready) {
     const std::string card = fields.at("card").get<std::string>();
     if (const Result<void> good = check_card(context, card); !good) return ready(tl::unexpected<Error>(good.error()));
-    if (const Result<void> may = context.machine.may_begin("Not marked"); !may)
+    if (const Result<void> may = context.machine.conditions().may_begin("Not marked"); !may)
         return ready(tl::unexpected<Error>(may.error()));
     const MarkCommand command{card, caller.session, context.machine.rack().stop_latch().trips(), context.mark_stops};
     const auto work = [card, config = context.machine.rack().config(), text = fields.at("job").get<std::string>(),

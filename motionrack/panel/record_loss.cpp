@@ -37,7 +37,7 @@ void RecordLoss::poll() {
 
 Result<void> RecordLoss::may(const OperationSpec& row) const {
     if (!lost_ || is_taken_without_record(row)) return {};
-    return context_.machine.may_start(std::string(row.name).c_str());
+    return context_.machine.conditions().may_start(std::string(row.name).c_str());
 }
 
 Answer RecordLoss::answer(const OperationSpec& row, Answer answer, const Result<std::int64_t>& kept) {

@@ -187,11 +187,11 @@ Result<void> access(Machine& machine, Draws& draws) {
 // ---- a belt and a laser, of racks that have them
 
 Result<void> start_part(Machine& machine, Draws&) {
-    MOTIONRACK_CHECK(machine.may_begin("Nothing was started"));
+    MOTIONRACK_CHECK(machine.conditions().may_begin("Nothing was started"));
     return rack::start_part(machine.rack(), "line");
 }
 Result<void> mark(Machine& machine, Draws& draws) {
-    MOTIONRACK_CHECK(machine.may_begin("Nothing was marked"));
+    MOTIONRACK_CHECK(machine.conditions().may_begin("Nothing was marked"));
     auto* const card = rack::rtc5_card_of(machine.rack(), "scan");
     if (card == nullptr) return fail(ErrorKind::refused, "The rack has no laser.");
     rtc5::Engine& laser = card->engine();
