@@ -292,7 +292,7 @@ bool GrblSession::finish() {
 
 /// Axes without a switch keep their displayed positions, as after power-up of a Grbl.
 bool GrblSession::finish_homing() {
-    const Result<void>& ended = machine_.last_homing()->ended;
+    const Result<void>& ended = machine_.manual().last_homing()->ended;
     if (ended) {
         state_.end_alarm();
         if (state_.is_locked() && pending_.begins_validation()) {

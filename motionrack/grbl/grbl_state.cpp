@@ -60,7 +60,7 @@ void GrblState::reset_machine(const operate::StopOrigin& by) {
 void GrblState::validate_positions() {
     for (const operate::AxisStatus& axis : machine_.status().axes)
         if (!machine_.position_valid(*machine_.rack().config().axis(axis.letter)))
-            (void)machine_.set_position(axis.letter, axis.commanded);
+            (void)machine_.manual().set_position(axis.letter, axis.commanded);
 }
 
 void GrblState::open_door() {

@@ -45,9 +45,9 @@ int alarm_of_stop(operate::Machine& machine) {
     return alarm_reset;
 }
 
-int alarm_of_homing(const operate::Machine& machine) {
-    if (machine.last_homing()->ended.error().kind == ErrorKind::stopped) return alarm_homing_reset;
-    for (const rack::HomedAxis& axis : machine.last_homing()->axes)
+int alarm_of_homing(operate::Machine& machine) {
+    if (machine.manual().last_homing()->ended.error().kind == ErrorKind::stopped) return alarm_homing_reset;
+    for (const rack::HomedAxis& axis : machine.manual().last_homing()->axes)
         if (axis.begun && !axis.outcome.homed)
             return axis.outcome.edges.empty() ? alarm_homing_no_switch : alarm_homing_pull_off;
     return alarm_homing_no_switch;

@@ -21,7 +21,7 @@ bool is_stop_ordered(operate::Machine& machine);
 /// Returns N of ALARM:N for a machine that stopped by itself.
 int alarm_of_stop(operate::Machine& machine);
 /// Returns N of ALARM:N for a homing that has failed. Requires one.
-int alarm_of_homing(const operate::Machine& machine);
+int alarm_of_homing(operate::Machine& machine);
 /// Feed along the path, mm/min; degrees/min if only rotary axes move.
 double feed_now(const operate::Machine& machine);
 

@@ -109,7 +109,7 @@ int SystemCommands::home() {
     if (!operate::can_home(on_.machine.rack().config())) return error_no_homing;
     if (!control()) return error_locked;
     (void)on_.machine.enable(true);
-    if (const Result<void> begun = on_.machine.home(""); !begun) {
+    if (const Result<void> begun = on_.machine.manual().home(""); !begun) {
         on_.answers.push(begun.error().message);
         return error_locked;
     }
@@ -127,7 +127,7 @@ int SystemCommands::jog(const std::string& text) {
     if (line.error != error_none) return line.error;
     if (!control()) return error_locked;
     on_.state.enable_new_machine();
-    if (const Result<void> begun = on_.machine.jog_to(line.target, line.feed); !begun) {
+    if (const Result<void> begun = on_.machine.manual().jog_to(line.target, line.feed); !begun) {
         on_.answers.push(begun.error().message);
         return error_locked;
     }

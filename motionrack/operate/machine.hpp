@@ -15,15 +15,14 @@
 // of a motion. So commands only record requests, and the motion thread's loop executes them.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <motionrack/operate/alarm_list.hpp>
 #include <motionrack/operate/axis_enables.hpp>
 #include <motionrack/operate/axis_handover.hpp>
 #include <motionrack/operate/door.hpp>
-#include <motionrack/operate/jogs.hpp>
 #include <motionrack/operate/manual_access.hpp>
+#include <motionrack/operate/manual_operation.hpp>
 #include <motionrack/operate/pending_stop.hpp>
 #include <motionrack/operate/position_setter.hpp>
 #include <motionrack/operate/position_validity.hpp>
@@ -33,7 +32,6 @@
 #include <motionrack/operate/status.hpp>
 #include <motionrack/operate/status_publisher.hpp>
 #include <motionrack/rack/frame_monitor.hpp>
-#include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/periodic_sampler.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
@@ -103,20 +101,6 @@ class Machine {
     void cancel(const StopOrigin& by = {});
     /// Ends an error stop, and drops programs and modal state; work offsets and positions stay. Stops any motion.
     void reset(const StopOrigin& by = {});
-    /// Jogs at `speed` per second (sign: direction; 0 releases) while it is called again within the lease, to the end
-    /// of the travel at most. Also refused: a command older than another one of its session, and a renewal of an ended
-    /// jog.
-    Result<void> jog(char axis, double speed, const JogOrigin& origin = {});
-    /// Jogs by a distance.
-    Result<void> jog_by(char axis, double distance, double speed);
-    /// Jogs along a straight line in machine coordinates at `speed` along it, after the running jogs of this kind;
-    /// cancel() ends them. Modal state is unchanged. Errors: refused, also outside the travel; invalid_input for an
-    /// unknown axis or a missing speed.
-    Result<void> jog_to(const control::Point& target, double speed);
-    /// Homes these axes; empty: all axes with a home switch.
-    Result<void> home(std::string axes);
-    /// Sets the position of an axis, which is valid then. Refused while something moves.
-    Result<void> set_position(char axis, double position);
     /// Switches the coolant immediately, otherwise like M7, M8 and M9. No effect while a stop is in force.
     void set_coolant(bool mist, bool flood);
     /// As AlarmList::acknowledge.
@@ -132,12 +116,11 @@ class Machine {
     const StartConditions& conditions() const { return conditions_; }
     /// Returns true if the position of this axis is valid.
     bool position_valid(const rack::RackAxis& axis) const { return validity_.of(axis.letter); }
-    /// Result of the last homing, if any.
-    const std::optional<rack::HomingOutcome>& last_homing() const { return homed_; }
     /// The running program, room for lines, overrides, single block and work offsets.
     ProgramRun& programs() { return programs_; }
     const control::StreamExecutor& stream() const { return programs_.stream(); }
-    Jogs& jogs() { return jogs_; }
+    /// Jogs, homing, set positions.
+    ManualOperation& manual() { return manual_; }
     /// Manual calls of a card's function library.
     Service& service() { return service_; }
     /// Manual accesses to the cards' buses.
@@ -158,8 +141,6 @@ class Machine {
     void slice();
     void step();
     void drive();
-    void jog_all();
-    void home_all();
     void failed(const Error& error);
     std::string at_work() const;
     void wait_for_standstill();
@@ -187,12 +168,7 @@ class Machine {
     bool stop_taken_ = false;    ///< the axes have received the stop of the stop latch
     bool stop_ordered_ = false;  ///< the present error stop has no other cause than a command
     std::string ordered_by_;     ///< description of the stop command in force; empty: none
-    // manual operation
-    Jogs jogs_;
-    std::optional<std::string> home_wanted_;
-    std::optional<rack::HomingOutcome> homed_;
-    rack::SeenIndexes seen_indexes_;
-    std::atomic<bool> home_stop_{false};
+    ManualOperation manual_;
     ManualAccess manual_access_{*this};
     std::mutex lock_;
     std::vector<std::function<void()>> inbox_;

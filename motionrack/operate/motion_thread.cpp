@@ -47,7 +47,7 @@ void Machine::take_stop() {
         if (in_work) door_.keep_tools(publisher_.status());
         publisher_.tools_off();
     }
-    if (latch.latched()) jogs_.let_go(), service_.break_off(), publisher_.tools_off();
+    if (latch.latched()) manual_.jogs().let_go(), service_.break_off(), publisher_.tools_off();
     if (!latch.halted() || std::exchange(stop_taken_, true)) return;
     cancel();
 }
@@ -81,9 +81,12 @@ void Machine::step() {
         return;
     }
     if (manual_access_.any()) return manual_access_.step();
-    if (jogs_.any()) return jog_all();
+    if (manual_.jogs().any()) return manual_.step_jogs([this](const Error& error) { failed(error); });
     alarms_.raise(validity_.poll(now(), state()));
-    if (home_wanted_) return home_all();
+    if (manual_.wants_homing()) {
+        if (Result<void> homed = manual_.step_homing(); !homed) failed(homed.error());
+        return;
+    }
     if (positions_.any()) {
         if (Result<void> set = positions_.step(); !set) failed(set.error());
         return;
@@ -128,7 +131,7 @@ void Machine::enter_error_stop(std::string source, std::string text) {
 /// Waits for standstill after a stop.
 void Machine::wait_for_standstill() {
     pending_stop_.end();
-    home_stop_ = false;
+    manual_.end_stop();
     rack::StopLatch& latch = rack_.stop_latch();
     if (latch.latched() && state() != MachineState::error_stop)  // losses stay, even with an immediate reset
         enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
@@ -173,52 +176,13 @@ void Machine::drive() {
         case control::ExecutionState::idle:
             if (programs_.has_lines()) break;
             programs_.end();
-            if (jogs_.any()) break;  // commanded while this motion ended
+            if (manual_.jogs().any()) break;  // commanded while this motion ended
             if (state() == MachineState::moving || state() == MachineState::jogging)
                 publisher_.enter(MachineState::standstill);
             break;
         case control::ExecutionState::running:
             break;
     }
-}
-
-// ---- manual operation
-
-void Machine::jog_all() {
-    const auto take = [this](char letter) { return handover_.take_axis(letter); };
-    const auto stops = [this](char letter) { return pending_stop_.wanted() || rack_.stop_latch().is_to_brake(letter); };
-    for (const Jogs::Ended& one : jogs_.step(take, now(), stops)) {
-        if (one.how || one.how.error().kind == ErrorKind::stopped) continue;
-        publisher_.status().reason = one.how.error().message;
-        if (one.position_valid || !validity_.of(one.letter)) continue;
-        validity_.invalidate(one.letter);  // it stopped without a ramp, or has lost its counts
-        alarms_.supersede({&one.letter, 1});
-        jogs_.let_go();
-        pending_stop_.request();
-        failed(one.how.error());
-    }
-    if (jogs_.any()) return host_of(rack_).pass(settings_.slice);
-    if (Result<void> taken = handover_.take_group(); !taken) return failed(taken.error());
-    if (jogs_.any()) return;  // commanded while the axes were handed over
-    if (state() == MachineState::jogging)
-        publisher_.enter(MachineState::standstill, std::exchange(publisher_.status().reason, {}));
-}
-
-void Machine::home_all() {
-    rack::HomingSettings settings;
-    settings.axes = *std::exchange(home_wanted_, std::nullopt);
-    settings.stop = &home_stop_;
-    settings.progress = [this](const rack::HomingProgress& progress) { publisher_.status().homing = progress.states; };
-    settings.seen_indexes = &seen_indexes_;
-    settings.on_homed = [this](char letter, Instant since) { validity_.begin_at_home(letter, since); };
-    handover_.release();
-    const rack::HomingOutcome& homed = homed_.emplace(rack::home_axes(rack_, settings));
-    for (const rack::HomedAxis& axis : homed.axes)
-        if (axis.begun && !axis.outcome.homed) validity_.invalidate(axis.letter);
-    if (Result<void> taken = handover_.take_group(); !taken) return failed(taken.error());
-    if (!homed.ended && homed.ended.error().kind == ErrorKind::machine) return failed(homed.ended.error());
-    if (state() == MachineState::homing)
-        publisher_.enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
 }
 
 // ---- failures

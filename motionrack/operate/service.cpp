@@ -50,7 +50,7 @@ Result<void> Service::check_begin(const std::string& card) const {
     if (!letters.empty() || machine_.publisher_.state() != MachineState::disabled)
         MOTIONRACK_CHECK(machine_.conditions_.ready(what));
     MOTIONRACK_CHECK(machine_.conditions_.axes_may_move(what, letters));
-    if (machine_.programs_.stream().has_work() || machine_.jogs_.any() || machine_.conditions_.has_pending())
+    if (machine_.programs_.stream().has_work() || machine_.manual_.jogs().any() || machine_.conditions_.has_pending())
         return fail(
             ErrorKind::refused,
             fmt::format("{}: a command is still being executed. Nothing was changed; try again at once.", what));

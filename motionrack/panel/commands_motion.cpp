@@ -39,26 +39,26 @@ constexpr std::array motion = {
                      }},
     OperationHandler{"home",
                      [](PanelContext& context, const Caller&, const json& fields) {
-                         return accepted(context.machine.home(fields.value("axes", "")));
+                         return accepted(context.machine.manual().home(fields.value("axes", "")));
                      }},
     OperationHandler{"jog",
                      [](PanelContext& context, const Caller& caller, const json& fields) -> Result<json> {
                          MOTIONRACK_TRY(const char letter, axis_of(context, fields));
                          const bool again = context.machine.state() == operate::MachineState::jogging;
-                         MOTIONRACK_CHECK(
-                             context.machine.jog(letter, fields.at("speed").get<double>(), origin_of(caller, fields)));
+                         MOTIONRACK_CHECK(context.machine.manual().jog(letter, fields.at("speed").get<double>(),
+                                                                       origin_of(caller, fields)));
                          return json{{"again", again}};
                      }},
     OperationHandler{"jog_by",
                      [](PanelContext& context, const Caller&, const json& fields) -> Result<json> {
                          MOTIONRACK_TRY(const char letter, axis_of(context, fields));
-                         return accepted(context.machine.jog_by(letter, fields.at("distance").get<double>(),
-                                                                fields.at("speed").get<double>()));
+                         return accepted(context.machine.manual().jog_by(letter, fields.at("distance").get<double>(),
+                                                                         fields.at("speed").get<double>()));
                      }},
     OperationHandler{"jog_stop",
                      [](PanelContext& context, const Caller& caller, const json& fields) -> Result<json> {
-                         static_cast<void>(
-                             context.machine.jogs().see(origin_of(caller, fields)));  // a stop is accepted at any age
+                         static_cast<void>(context.machine.manual().jogs().see(
+                             origin_of(caller, fields)));  // a stop is accepted at any age
                          if (context.machine.state() == operate::MachineState::jogging) context.machine.cancel();
                          return json::object();
                      }},
@@ -70,7 +70,8 @@ constexpr std::array motion = {
     OperationHandler{"set_position",
                      [](PanelContext& context, const Caller&, const json& fields) -> Result<json> {
                          MOTIONRACK_TRY(const char letter, axis_of(context, fields));
-                         return accepted(context.machine.set_position(letter, fields.at("position").get<double>()));
+                         return accepted(
+                             context.machine.manual().set_position(letter, fields.at("position").get<double>()));
                      }},
 };
 

@@ -212,7 +212,7 @@ void Panel::stop(const Caller& caller) {
 void Panel::left(std::string session) {
     operate::Machine& machine = inside_->context().machine;
     machine.post([&machine, session = std::move(session)] {
-        machine.jogs().end_of(session);
+        machine.manual().jogs().end_of(session);
         machine.service().end_of(session);
     });
 }

@@ -126,7 +126,7 @@ Result<json> control_of(PanelContext& context) {
 }
 
 Result<json> homing_of(PanelContext& context) {
-    const auto& homed = context.machine.last_homing();
+    const auto& homed = context.machine.manual().last_homing();
     return json{{"homing", homed ? json::parse(rack::homing_json(*homed)) : json()}};
 }
 

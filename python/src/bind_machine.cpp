@@ -84,6 +84,38 @@ py::dict dict_of(const operate::Status& status) {
     return out;
 }
 
+void bind_manual_operation(Class& c) {
+    c.def(
+        "home",
+        [](SteppedMachine& self, const std::string& axes) {
+            ordered(self, [&](Machine& machine) { return machine.manual().home(axes); });
+        },
+        py::arg("axes"));
+    c.def(
+        "jog",
+        [](SteppedMachine& self, const std::string& axis, double speed) {
+            ordered(self,
+                    [&, which = only_letter(axis)](Machine& machine) { return machine.manual().jog(which, speed); });
+        },
+        py::arg("axis"), py::arg("speed"));
+    c.def(
+        "jog_by",
+        [](SteppedMachine& self, const std::string& axis, double distance, double speed) {
+            ordered(self, [&, which = only_letter(axis)](Machine& machine) {
+                return machine.manual().jog_by(which, distance, speed);
+            });
+        },
+        py::arg("axis"), py::arg("distance"), py::arg("speed"));
+    c.def(
+        "set_position",
+        [](SteppedMachine& self, const std::string& axis, double position) {
+            ordered(self, [&, which = only_letter(axis)](Machine& machine) {
+                return machine.manual().set_position(which, position);
+            });
+        },
+        py::arg("axis"), py::arg("position"));
+}
+
 void bind_orders(Class& c) {
     const auto plain = [&](const char* name, auto command) {
         c.def(name, [command](SteppedMachine& self) {
@@ -106,33 +138,6 @@ void bind_orders(Class& c) {
             ordered(self, [&](Machine& machine) { return machine.begin_program(program, name); });
         },
         py::arg("program"), py::arg("name"));
-    c.def(
-        "home",
-        [](SteppedMachine& self, const std::string& axes) {
-            ordered(self, [&](Machine& machine) { return machine.home(axes); });
-        },
-        py::arg("axes"));
-    c.def(
-        "jog",
-        [](SteppedMachine& self, const std::string& axis, double speed) {
-            ordered(self, [&, which = only_letter(axis)](Machine& machine) { return machine.jog(which, speed); });
-        },
-        py::arg("axis"), py::arg("speed"));
-    c.def(
-        "jog_by",
-        [](SteppedMachine& self, const std::string& axis, double distance, double speed) {
-            ordered(self, [&, which = only_letter(axis)](Machine& machine) {
-                return machine.jog_by(which, distance, speed);
-            });
-        },
-        py::arg("axis"), py::arg("distance"), py::arg("speed"));
-    c.def(
-        "set_position",
-        [](SteppedMachine& self, const std::string& axis, double position) {
-            ordered(self,
-                    [&, which = only_letter(axis)](Machine& machine) { return machine.set_position(which, position); });
-        },
-        py::arg("axis"), py::arg("position"));
     c.def(
         "set_overrides",
         [](SteppedMachine& self, double feed, double rapid) {
@@ -200,6 +205,7 @@ void bind_machine(py::module_& m) {
           }),
           py::arg("world"));
     bind_orders(c);
+    bind_manual_operation(c);
     bind_rest(c);
 }
 

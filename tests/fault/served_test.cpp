@@ -94,13 +94,13 @@ class Served {
         if (now >= milliseconds(100) && !std::exchange(declared_, true))
             for (const rack::RackAxis& axis : machine->rack().config().axes)
                 if (!machine->position_valid(axis)) {
-                    EXPECT_TRUE(machine->set_position(axis.letter, axis.initial_position));
+                    EXPECT_TRUE(machine->manual().set_position(axis.letter, axis.initial_position));
                 }
         if (now < milliseconds(200)) return;
         if (begun_ == never) {
             begun_ = moved_ = now;
             const Result<void> begun =
-                by_ == "home" ? machine->home("X") : machine->begin_program(program_, "part.ngc");
+                by_ == "home" ? machine->manual().home("X") : machine->begin_program(program_, "part.ngc");
             EXPECT_TRUE(begun) << begun.error().text();
         }
         breaking_.apply(*machine, begun_);

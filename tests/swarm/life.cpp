@@ -125,7 +125,7 @@ class Lives {
         laws.ordered(Order::enable);
         if (draws_.one_in(4)) return;
         for (const InitialAxisState& axis : truth_.empty() ? places() : truth_) {
-            static_cast<void>(machine_->set_position(axis.letter, axis.true_position));
+            static_cast<void>(machine_->manual().set_position(axis.letter, axis.true_position));
             laws.ordered(Order::position);
         }
     }
@@ -301,7 +301,7 @@ class Lives {
                 return;
             case 3:
                 for (const operate::AxisStatus& axis : machine_->status().axes) {
-                    (void)machine_->set_position(axis.letter, axis.true_position);
+                    (void)machine_->manual().set_position(axis.letter, axis.true_position);
                     laws.ordered(Order::position);
                 }
                 return;

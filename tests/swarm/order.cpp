@@ -79,7 +79,7 @@ operate::JogOrigin some_origin(Machine& machine, Draws& draws) {
 }
 Result<void> end_session(Machine& machine, Draws& draws) {
     const std::string session = some_session(draws);
-    machine.jogs().end_of(session);
+    machine.manual().jogs().end_of(session);
     machine.service().end_of(session);
     return {};
 }
@@ -87,17 +87,17 @@ Result<void> end_session(Machine& machine, Draws& draws) {
 Result<void> jog(Machine& machine, Draws& draws) {
     const char letter = some_letter(machine, draws);
     const double speed = draws.one_in(5) ? 0 : some_speed(draws);
-    return machine.jog(letter, speed, some_origin(machine, draws));
+    return machine.manual().jog(letter, speed, some_origin(machine, draws));
 }
 Result<void> jog_by(Machine& machine, Draws& draws) {
     const char letter = some_letter(machine, draws);
     const double distance = draws.number(-30, 30);
-    return machine.jog_by(letter, distance, std::abs(some_speed(draws)));
+    return machine.manual().jog_by(letter, distance, std::abs(some_speed(draws)));
 }
 Result<void> jog_to(Machine& machine, Draws& draws) {
     control::Point target = {};
     for (std::size_t i = 0; i < 3; ++i) target[i] = draws.number(0, 50);
-    return machine.jog_to(target, draws.number(1, 100));
+    return machine.manual().jog_to(target, draws.number(1, 100));
 }
 Result<void> begin_program(Machine& machine, Draws& draws) {
     return machine.begin_program(some_program(machine, draws), "swarm.ngc");
@@ -129,13 +129,14 @@ Result<void> enable(Machine& machine, Draws& draws) {
     return machine.enable(on, draws.one_in(3) ? std::string(1, some_letter(machine, draws)) : std::string());
 }
 Result<void> home(Machine& machine, Draws& draws) {
-    return machine.home(draws.one_in(2) ? std::string(1, some_letter(machine, draws)) : std::string());
+    return machine.manual().home(draws.one_in(2) ? std::string(1, some_letter(machine, draws)) : std::string());
 }
 /// Sets the position correctly: to the true position at this instant.
 Result<void> declare(Machine& machine, Draws& draws) {
     const char letter = some_axis(machine, draws).letter;
     for (const rack::RunningAxis& axis : machine.rack().axes())
-        if (axis.config.letter == letter) return machine.set_position(letter, axis.machine->position(machine.now()));
+        if (axis.config.letter == letter)
+            return machine.manual().set_position(letter, axis.machine->position(machine.now()));
     return {};
 }
 Result<void> set_overrides(Machine& machine, Draws& draws) {

@@ -28,7 +28,7 @@ TEST_P(SwappedLimits, StopAnAxisBehindWhichOneBecomesActive) {
         if (GetParam()) {
             EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X80\nM2\n", "p"));
         } else {
-            EXPECT_TRUE(m.jog_by('X', 70, 20));
+            EXPECT_TRUE(m.manual().jog_by('X', 70, 20));
         }
     });
     o.at(3, [](Machine& m) {
@@ -37,8 +37,8 @@ TEST_P(SwappedLimits, StopAnAxisBehindWhichOneBecomesActive) {
         EXPECT_THAT(last_alarm(m), HasSubstr("The - limit switch of X became active while X moved in + direction"));
         EXPECT_THAT(last_alarm(m), HasSubstr("wiring"));
         EXPECT_TRUE(m.status().axes[0].position_valid) << "a ramp loses nothing";
-        EXPECT_FALSE(m.jog('X', 5)) << "neither way before a reset";
-        EXPECT_FALSE(m.jog('X', -5));
+        EXPECT_FALSE(m.manual().jog('X', 5)) << "neither way before a reset";
+        EXPECT_FALSE(m.manual().jog('X', -5));
         m.reset();
     });
     o.at(3.5, [](Machine& m) { EXPECT_EQ(m.state(), MachineState::standstill); });
@@ -53,7 +53,7 @@ TEST_P(SwappedLimits, StopAHomingToo) {
                  "[wires]\n\"m.xlmtp\" = \"X.limit_minus\"\n\"m.xlmtm\" = \"X.limit_plus\"\n\"m.xin0\" = \"open\"\n"
                  "\"m.xin1\" = \"X.home\"\n"));
     o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.home", 1)); });
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().home("X")); });
     o.at(4, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop) << name_of(m.state());
         EXPECT_GT(m.status().axes[0].true_position, 0) << "it does not run on into its end";
@@ -73,7 +73,7 @@ TEST_P(OneChannel, OfTheEmergencyStopStopsAtOnceAndIsNotResetWhileTheOtherDiffer
     const char* const channel = GetParam();
     Operated o(two_axes(two_channels));
     o.at(0.02, set_all_positions);
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 70, 20)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 70, 20)); });
     o.at(1, [channel](Machine& m) { EXPECT_TRUE(m.wires().force(channel, 0)); });
     o.at(1.01, [](Machine& m) { EXPECT_EQ(m.status().axes[0].velocity, 0) << "the first contact acts at once"; });
     o.at(1.4, [](Machine& m) {
@@ -153,13 +153,14 @@ TEST(Door, OpenedDuringAJogStopsItAndPreventsStartsUntilItIsClosed) {
     Operated o(two_axes(with_door + "[axis.X.switches]\nhome_mm = 0\n"));
     o.at(0.02, set_all_positions);
     double stood = 0;
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 70, 20)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 70, 20)); });
     o.at(1, [](Machine& m) { open_door(m, true); });
     o.at(1.2, [&](Machine& m) {
         stood = m.status().axes[0].commanded;
         EXPECT_LT(stood, 50);
-        for (const Result<void>& refused : {m.jog('X', 5), m.jog_by('X', 5, 5), m.home("X"),
-                                            m.begin_program("G0 X1\n", "p"), m.jog_to({20, 0, 0, 0, 0, 0}, 5)}) {
+        for (const Result<void>& refused :
+             {m.manual().jog('X', 5), m.manual().jog_by('X', 5, 5), m.manual().home("X"),
+              m.begin_program("G0 X1\n", "p"), m.manual().jog_to({20, 0, 0, 0, 0, 0}, 5)}) {
             ASSERT_FALSE(refused);
             EXPECT_THAT(refused.error().message, HasSubstr("the door is open"));
         }
@@ -169,7 +170,7 @@ TEST(Door, OpenedDuringAJogStopsItAndPreventsStartsUntilItIsClosed) {
         EXPECT_EQ(m.state(), MachineState::standstill);
         EXPECT_EQ(m.status().axes[0].commanded, stood);
         open_door(m, false);
-        EXPECT_TRUE(m.jog_by('X', 5, 20));
+        EXPECT_TRUE(m.manual().jog_by('X', 5, 20));
     });
     o.run(3);
     EXPECT_NEAR(o.x(), stood + 5, 0.01);

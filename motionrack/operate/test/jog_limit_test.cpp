@@ -62,7 +62,7 @@ Seen jog_on(const JogCase& one) {
         o.at(t, [&one, n](Machine& m) {
             const double speed = n % 2 == 1 && one.next_speed > 0 ? one.next_speed : one.speed;
             if (one.overrides) m.programs().set_overrides(n % 2 == 0 ? 2 : 0.1, n % 2 == 0 ? 1 : 0.2);
-            static_cast<void>(m.jog('X', one.direction * speed));
+            static_cast<void>(m.manual().jog('X', one.direction * speed));
         });
     o.machine->listen([&](const Status& status) {
         const AxisStatus& x = status.axes[0];
@@ -135,12 +135,12 @@ INSTANTIATE_TEST_SUITE_P(Cases, JogToTheLimit, testing::ValuesIn(jog_cases));
 
 TEST(ContinuousJog, AtALimitIsRejectedTowardsItAndAcceptedAwayFromIt) {
     Operated o(rack_of({.start = 300}));
-    o.at(0.1, [](Machine& m) { static_cast<void>(m.jog('X', 20)); });
+    o.at(0.1, [](Machine& m) { static_cast<void>(m.manual().jog('X', 20)); });
     o.at(0.2, [&](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::standstill);
         EXPECT_THAT(m.status().reason, HasSubstr("it is at the + end of its travel, 300 mm; move it in - direction"));
         EXPECT_DOUBLE_EQ(o.x(), 300);
-        EXPECT_TRUE(m.jog('X', -20));
+        EXPECT_TRUE(m.manual().jog('X', -20));
     });
     o.run(1);
     EXPECT_LT(o.x(), 299);
@@ -148,7 +148,7 @@ TEST(ContinuousJog, AtALimitIsRejectedTowardsItAndAcceptedAwayFromIt) {
 
 TEST(ContinuousJog, WithoutAValidPositionHasNoSoftLimit) {
     Operated o(router());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog('X', -10)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog('X', -10)); });
     o.run(0.2);
     EXPECT_FALSE(o.machine->status().axes[0].position_valid);
     EXPECT_LT(o.x(), -0.5);
@@ -165,10 +165,10 @@ TEST(Machine, JogsEveryAxisOfTheRouterWithoutALostStep) {
                 const double way = letter == 'Z' ? -1 : 1;
                 o.at(0.05, [](Machine& m) {
                     for (const AxisStatus& axis : m.status().axes)
-                        EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
+                        EXPECT_TRUE(m.manual().set_position(axis.letter, axis.true_position));
                 });
                 for (double t = 0.1; t < 0.4; t += 0.05)
-                    o.at(t, [=](Machine& m) { EXPECT_TRUE(m.jog(letter, way * speed)); });
+                    o.at(t, [=](Machine& m) { EXPECT_TRUE(m.manual().jog(letter, way * speed)); });
                 o.run(1);
                 const AxisStatus& axis = o.machine->status().axes[i];
                 EXPECT_TRUE(axis.position_valid) << letter << ' ' << profile << ' ' << speed;
@@ -183,15 +183,16 @@ TEST(LimitSwitch, EndsAPathWhoseFirstAxisIsOnIt) {
     config.controller.profile = "jerk_limited";
     Operated o(config);
     o.at(0.05, [](Machine& m) {
-        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
+        for (const AxisStatus& axis : m.status().axes)
+            EXPECT_TRUE(m.manual().set_position(axis.letter, axis.true_position));
     });
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 1, 10)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 1, 10)); });
     o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.limit_plus", 0)); });
     o.at(1.2, [](Machine& m) { m.reset({}); });
     o.at(1.5, [](Machine& m) {
         control::Point to = m.stream().interpreter().position();
         to[0] += 0.11, to[1] += 0.7, to[2] -= 1.3;
-        EXPECT_TRUE(m.jog_to(to, 50));
+        EXPECT_TRUE(m.manual().jog_to(to, 50));
     });
     o.run(3);
     EXPECT_EQ(o.states.back(), "error stop");

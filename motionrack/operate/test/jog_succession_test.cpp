@@ -21,10 +21,11 @@ Succession jog_after(const rack::RackConfig& config, FirstJog first, double dist
     Operated o(config, std::move(settings));
     Succession seen;
     o.at(0.05, [](Machine& m) {
-        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
+        for (const AxisStatus& axis : m.status().axes)
+            EXPECT_TRUE(m.manual().set_position(axis.letter, axis.true_position));
     });
     o.at(0.1, [=](Machine& m) { EXPECT_TRUE(first(m, distance)); });
-    o.at(then_s, [](Machine& m) { static_cast<void>(m.jog('X', 10, {"operator"})); });
+    o.at(then_s, [](Machine& m) { static_cast<void>(m.manual().jog('X', 10, {"operator"})); });
     double before = 0;
     bool idle_before = false;
     o.each_status([&](const Status& status) {
@@ -50,17 +51,17 @@ void expect_never_called_standstill(const rack::RackConfig& config, FirstJog fir
 }
 
 Result<void> jog_by(Machine& m, double distance) {
-    return m.jog_by('X', distance, 100);
+    return m.manual().jog_by('X', distance, 100);
 }
 
 Result<void> jog_to(Machine& m, double distance) {
     control::Point target = m.stream().interpreter().position();
     target[0] += distance;
-    return m.jog_to(target, 100);
+    return m.manual().jog_to(target, 100);
 }
 
 Result<void> release(Machine& m, double) {
-    return m.jog('X', 0);
+    return m.manual().jog('X', 0);
 }
 
 TEST(JogSuccession, OfAPulseAxisNeverReportsStandstill) {

@@ -165,7 +165,7 @@ TEST_F(JournalWriterTest, HasTheStopPositionOfAMachineThatEndedDuringAJog) {
     open();
     run(
         {}, [](const Status& s) { return s.axes[0].commanded > 20; }, [](Machine& m) { m.quit(); },
-        [](Machine& m) { ASSERT_TRUE(m.jog('X', 90)); });
+        [](Machine& m) { ASSERT_TRUE(m.manual().jog('X', 90)); });
     EXPECT_EQ(last_.state, MachineState::standstill);
     end(true);
     open();

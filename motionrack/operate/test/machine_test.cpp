@@ -170,7 +170,7 @@ TEST(Machine, StopsFromAFeedHoldAndNeverRejectsAStop) {
 
 TEST(Machine, JogsWhileRenewedAndStopsWithoutRenewal) {
     Operated o(two_axes());
-    for (double t = 0.1; t < 1.05; t += 0.1) o.at(t, [](Machine& m) { EXPECT_TRUE(m.jog('X', 10)); });
+    for (double t = 0.1; t < 1.05; t += 0.1) o.at(t, [](Machine& m) { EXPECT_TRUE(m.manual().jog('X', 10)); });
     o.run(3);
     EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "jogging", "standstill"));
     EXPECT_GT(o.x(), 20);
@@ -180,9 +180,9 @@ TEST(Machine, JogsWhileRenewedAndStopsWithoutRenewal) {
 
 TEST(Machine, StartsLinesAtItsPositionAfterAJog) {
     Operated o(two_axes());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 3, 10)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 3, 10)); });
     o.at(2, [](Machine& m) { EXPECT_TRUE(m.line("G91 G1 X1 Y1 F600", 1)); });
-    o.at(4, [](Machine& m) { EXPECT_TRUE(m.jog_by('Y', 2.5, 10)); });
+    o.at(4, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('Y', 2.5, 10)); });
     o.run(6);
     EXPECT_NEAR(o.x(), 14, 1.0 / 640);
     EXPECT_NEAR(o.y(), 3.5, 1.0 / 640);
@@ -214,7 +214,7 @@ TEST(Machine, WithHomeSwitchesHasNoValidPositionUntilItIsHomed) {
     o.at(0.1, [](Machine& m) {
         EXPECT_THAT(m.begin_program("G0 X1\n", "p").error().message, HasSubstr("axis X is not valid"));
         EXPECT_THAT(m.line("G0 X1", 1).error().message, HasSubstr("not valid"));
-        EXPECT_TRUE(m.home(""));
+        EXPECT_TRUE(m.manual().home(""));
     });
     o.at(60, [](Machine& m) {
         for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(axis.position_valid) << axis.letter;
@@ -229,7 +229,7 @@ TEST(Machine, WithHomeSwitchesHasNoValidPositionUntilItIsHomed) {
 
 TEST(Machine, StopsItsHoming) {
     Operated o(router());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().home("X")); });
     o.at(0.4, [](Machine& m) { m.stop(); });
     o.run(2);
     EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "homing", "stopping", "error stop"));
@@ -239,7 +239,7 @@ TEST(Machine, StopsItsHoming) {
 
 TEST(Machine, AcceptsADeclaredPositionAsValid) {
     Operated o(router());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 33)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('Y', 33)); });
     o.run(1);
     EXPECT_TRUE(o.machine->status().axes[1].position_valid);
     EXPECT_FALSE(o.machine->status().axes[0].position_valid);
@@ -248,7 +248,7 @@ TEST(Machine, AcceptsADeclaredPositionAsValid) {
 
 TEST(Machine, EndsWithThePositionThatWasDeclaredLast) {
     Operated o(two_axes());
-    o.at(1, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 33)); });
+    o.at(1, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('Y', 33)); });
     o.run(1);
     EXPECT_TRUE(o.machine->status().axes[1].position_valid);
     EXPECT_NEAR(o.y(), 33, 1e-9);
@@ -282,10 +282,10 @@ TEST(Machine, JogsAlongConsecutiveLinesAndKeepsItsModalState) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.line("G20 G91", 1)); });
     o.at(0.2, [](Machine& m) {
-        EXPECT_TRUE(m.jog_to({30, 20, 0, 0, 0, 0}, 20));
-        EXPECT_TRUE(m.jog_to({50, 20, 0, 0, 0, 0}, 20));
+        EXPECT_TRUE(m.manual().jog_to({30, 20, 0, 0, 0, 0}, 20));
+        EXPECT_TRUE(m.manual().jog_to({50, 20, 0, 0, 0, 0}, 20));
         EXPECT_THAT(m.line("G1 X1 F10", 2).error().message, HasSubstr("state 'jogging'"));
-        EXPECT_THAT(m.jog('X', 5).error().message, HasSubstr("state 'jogging'"));
+        EXPECT_THAT(m.manual().jog('X', 5).error().message, HasSubstr("state 'jogging'"));
     });
     o.run(6);
     EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "jogging", "standstill"));
@@ -298,7 +298,7 @@ TEST(Machine, JogsAlongConsecutiveLinesAndKeepsItsModalState) {
 
 TEST(Machine, CancelsAJogAlongALineAndContinuesFromThere) {
     Operated o(two_axes());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_to({200, 100, 0, 0, 0, 0}, 20)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog_to({200, 100, 0, 0, 0, 0}, 20)); });
     o.at(1, [](Machine& m) { m.cancel(); });
     o.at(2, [&](Machine& m) {
         EXPECT_GT(o.x(), 20);
@@ -314,10 +314,10 @@ TEST(Machine, CancelsAJogAlongALineAndContinuesFromThere) {
 TEST(Machine, RejectsJogsBeyondItsTravelOrWithoutAFeedRate) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
-        EXPECT_THAT(m.jog_to({301, 0, 0, 0, 0, 0}, 20).error().message,
+        EXPECT_THAT(m.manual().jog_to({301, 0, 0, 0, 0, 0}, 20).error().message,
                     HasSubstr("axis X goes from 0 to 300, not to 301"));
-        EXPECT_THAT(m.jog_to({11, 0, 1, 0, 0, 0}, 20).error().message, HasSubstr("no axis Z"));
-        EXPECT_THAT(m.jog_to({11, 0, 0, 0, 0, 0}, 0).error().message, HasSubstr("a jog speed of 0"));
+        EXPECT_THAT(m.manual().jog_to({11, 0, 1, 0, 0, 0}, 20).error().message, HasSubstr("no axis Z"));
+        EXPECT_THAT(m.manual().jog_to({11, 0, 0, 0, 0, 0}, 0).error().message, HasSubstr("a jog speed of 0"));
     });
     o.run(1);
     EXPECT_DOUBLE_EQ(o.x(), 10);
@@ -340,7 +340,7 @@ TEST(Machine, ReportsSpindleAndCoolantWhenTheProgramHasPassedTheirWords) {
 TEST(Machine, AcceptsPositionsOfSeveralAxesAtOnce) {
     Operated o(router());
     o.at(0.1, [](Machine& m) {
-        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, 5));
+        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.manual().set_position(axis.letter, 5));
     });
     o.run(0.5);
     for (const AxisStatus& axis : o.machine->status().axes) {
@@ -351,8 +351,8 @@ TEST(Machine, AcceptsPositionsOfSeveralAxesAtOnce) {
 
 TEST(Machine, ReportsThePositionsOfTheOtherAxesWhileOneIsJogged) {
     Operated o(two_axes());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('Y', 50)); });
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 20, 20)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('Y', 50)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 20, 20)); });
     double reported = 0;
     o.at(0.5, [&](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::jogging);

@@ -126,8 +126,9 @@ TEST_P(MotionByRegisters, EndsOnEveryStopAndPreventsEveryStart) {
     o.at(0.1, [](Machine& m) { drive_x(m); });
     o.at(0.5, [&](Machine& m) {
         EXPECT_TRUE(x_moves(m));
-        for (const std::string& refused : {refusal_of(m.set_position('X', 0)), refusal_of(m.jog('Y', 5)),
-                                           refusal_of(m.home("")), refusal_of(m.service().begin("m", {}, "", {}))})
+        for (const std::string& refused :
+             {refusal_of(m.manual().set_position('X', 0)), refusal_of(m.manual().jog('Y', 5)),
+              refusal_of(m.manual().home("")), refusal_of(m.service().begin("m", {}, "", {}))})
             EXPECT_THAT(refused, HasSubstr("axis X is moved by register writes"));
         GetParam().give(m);
     });
@@ -145,7 +146,7 @@ TEST_P(MotionByRegisters, EndsOnEveryStopAndPreventsEveryStart) {
     o.at(1.1, [&](Machine& m) {
         EXPECT_TRUE(m.enable(true));
         EXPECT_EQ(m.status().axes[0].true_position, moved_to) << "a reset moves nothing";
-        for (const char letter : {'X', 'Y'}) EXPECT_TRUE(m.set_position(letter, 20));
+        for (const char letter : {'X', 'Y'}) EXPECT_TRUE(m.manual().set_position(letter, 20));
     });
     o.at(1.2, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X30\nM2\n", "p")); });
     o.run(3);

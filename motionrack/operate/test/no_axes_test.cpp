@@ -42,11 +42,11 @@ TEST(MachineWithoutAxes, RejectsProgramsLinesJogsAndHoming) {
         say(m.begin_program("G1 X1 F100\n", "one.ngc"));
         const auto line = m.line("M3 S1000", 1);
         said.push_back(line ? "done" : line.error().message);
-        say(m.jog('X', 1));
-        say(m.jog_by('X', 1, 1));
-        say(m.jog_to({1}, 1));
-        say(m.home(""));
-        say(m.set_position('X', 0));
+        say(m.manual().jog('X', 1));
+        say(m.manual().jog_by('X', 1, 1));
+        say(m.manual().jog_to({1}, 1));
+        say(m.manual().home(""));
+        say(m.manual().set_position('X', 0));
     });
     o.run(0.2);
     const auto none = HasSubstr("the rack has no axes. Nothing was moved; add an [axis.X] section"),

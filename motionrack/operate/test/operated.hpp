@@ -38,7 +38,7 @@ inline rack::RackConfig carriage() {
 
 /// Sets all positions to their present values.
 inline void set_all_positions(Machine& m) {
-    for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.commanded));
+    for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.manual().set_position(axis.letter, axis.commanded));
 }
 
 /// Returns the message of a refused command; empty: it was accepted.

@@ -55,11 +55,11 @@ TEST_P(JogThatBreaks, KeepsOrInvalidatesThePositionAsAProgramDoesAndAlarms) {
     o.at(0.05, [&](Machine& m) {
         for (const AxisStatus& axis : m.status().axes)
             if (!axis.position_valid) {
-                EXPECT_TRUE(m.set_position(axis.letter, axis.commanded));
+                EXPECT_TRUE(m.manual().set_position(axis.letter, axis.commanded));
             }
     });
     for (int n = 2; n < 40; ++n) {
-        o.at(0.1 * n, [&, n](Machine& m) { static_cast<void>(m.jog('X', one.speed, {"a", n, n > 2})); });
+        o.at(0.1 * n, [&, n](Machine& m) { static_cast<void>(m.manual().jog('X', one.speed, {"a", n, n > 2})); });
         if (n == 10)
             o.at(0.1 * n, [&](Machine& m) {
                 EXPECT_EQ(m.state(), MachineState::jogging);
@@ -86,12 +86,12 @@ INSTANTIATE_TEST_SUITE_P(Faults, JogThatBreaks, testing::ValuesIn(broken_jogs),
 
 TEST(Machine, HasAValidPositionOnceOneIsDeclaredAfterLostSteps) {
     Operated o(two_axes());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 20, 50)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 20, 50)); });
     o.at(0.3, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.lose_steps=64", "X")); });
     o.at(2, [](Machine& m) {
         EXPECT_FALSE(m.status().axes[0].position_valid);
         EXPECT_THAT(m.line("G1 X1 F600", 1).error().message, HasSubstr("not valid"));
-        EXPECT_TRUE(m.set_position('X', 12));
+        EXPECT_TRUE(m.manual().set_position('X', 12));
     });
     o.at(2.5, [](Machine& m) { EXPECT_TRUE(m.line("G1 X15 F600", 1)); });
     o.run(4);
@@ -136,13 +136,13 @@ TEST(Machine, MovesNoAxisBetweenTheDeclarationOfAPositionAndItsEffect) {
         EXPECT_THAT(order ? "taken" : order.error().message, HasSubstr("positions of axes are being set"));
     };
     o.at(0.1, [&](Machine& m) {
-        EXPECT_TRUE(m.set_position('X', 5));
-        EXPECT_TRUE(m.set_position('Y', 7)) << "several may be declared together";
-        refused(m.jog_by('X', 10, 20));
-        refused(m.jog('X', 20));
-        refused(m.home("X"));
+        EXPECT_TRUE(m.manual().set_position('X', 5));
+        EXPECT_TRUE(m.manual().set_position('Y', 7)) << "several may be declared together";
+        refused(m.manual().jog_by('X', 10, 20));
+        refused(m.manual().jog('X', 20));
+        refused(m.manual().home("X"));
     });
-    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 10, 20)); });
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 10, 20)); });
     o.run(2);
     EXPECT_NEAR(o.x(), 15, 1e-3);
     EXPECT_NEAR(o.y(), 7, 1e-3);
@@ -151,14 +151,14 @@ TEST(Machine, MovesNoAxisBetweenTheDeclarationOfAPositionAndItsEffect) {
 TEST(Machine, InvalidatesAnAxisPushedBetweenTheDeclarationOfItsPositionAndItsEffect) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
-        EXPECT_TRUE(m.set_position('X', 5));
+        EXPECT_TRUE(m.manual().set_position('X', 5));
         EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.push=640", "X"));
     });
     o.at(0.5, [](Machine& m) {
         EXPECT_FALSE(m.status().axes[0].position_valid) << "it was declared where it stood before";
         ASSERT_THAT(m.status().alarms, testing::SizeIs(1));
         EXPECT_THAT(m.status().alarms[0].text, HasSubstr(lost));
-        EXPECT_TRUE(m.set_position('X', 6));
+        EXPECT_TRUE(m.manual().set_position('X', 6));
     });
     o.run(1);
     EXPECT_TRUE(o.machine->status().axes[0].position_valid) << "it is declared where it stands now";
@@ -173,8 +173,8 @@ void push_what_is_home(Operated& o, void (*then)(Machine&)) {
         then(*o.machine);
         EXPECT_TRUE(rack::inject_fault(o.machine->rack(), "motor.push=64", "A"));
     });
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('A', 0)); });
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home({})); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('A', 0)); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().home({})); });
     o.run(40);
     const Status& status = o.machine->status();
     ASSERT_EQ(status.axes[3].letter, 'A');
@@ -230,12 +230,12 @@ TEST(SecondIndex, IsReportedFromTheSecondHomingOn) {
         pulsed = true;
         EXPECT_TRUE(o.machine->wires().force("m.xin2", 1));
     });
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().home("X")); });
     o.at(20, [&](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::standstill) << m.status().reason;
         EXPECT_TRUE(m.status().axes[0].position_valid);
         disturbs = true;
-        EXPECT_TRUE(m.home("X"));
+        EXPECT_TRUE(m.manual().home("X"));
     });
     o.run(40);
     EXPECT_TRUE(pulsed);

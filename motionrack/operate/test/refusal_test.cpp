@@ -13,7 +13,7 @@ using testing::HasSubstr;
 TEST(Machine, IsDisabledAtFirstAndRejectsMotion) {
     auto machine = *Machine::make(two_axes(), {});
     EXPECT_EQ(machine->state(), MachineState::disabled);
-    EXPECT_THAT(machine->jog('X', 5).error().message, HasSubstr("enable it first"));
+    EXPECT_THAT(machine->manual().jog('X', 5).error().message, HasSubstr("enable it first"));
     EXPECT_THAT(machine->line("G1 X20 F600", 1).error().message, HasSubstr("enable it first"));
     EXPECT_THAT(machine->begin_program("G0 X1\n", "p").error().message, HasSubstr("disabled"));
 }
@@ -83,20 +83,21 @@ TEST(Machine, MovesNoAxisThatIsDisabled) {
         EXPECT_EQ(m.state(), MachineState::standstill);
         EXPECT_TRUE(m.status().axes[0].enabled);
         EXPECT_FALSE(m.status().axes[1].enabled);
-        EXPECT_EQ(m.jog_by('Y', 5, 10).error().message,
+        EXPECT_EQ(m.manual().jog_by('Y', 5, 10).error().message,
                   "Not jogged: axis Y is disabled; enable it first. Nothing was moved.");
         EXPECT_THAT(m.begin_program("G21 G90 F600\nG1 X20\n", "p").error().message, HasSubstr("axis Y is disabled"));
         EXPECT_THAT(m.line("G0 X1", 1).error().message, HasSubstr("axis Y is disabled"));
         EXPECT_THAT(m.enable(true, "XQ").error().message, HasSubstr("no axis Q"));
-        EXPECT_TRUE(m.jog('X', 10));
-        EXPECT_THAT(m.jog('Y', 10).error().message, HasSubstr("axis Y is disabled"));  // even while another axis jogs
+        EXPECT_TRUE(m.manual().jog('X', 10));
+        EXPECT_THAT(m.manual().jog('Y', 10).error().message,
+                    HasSubstr("axis Y is disabled"));  // even while another axis jogs
     });
     o.at(1, [](Machine& m) { EXPECT_TRUE(m.enable(false, "X")); });
     o.at(1.2, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::disabled);
         EXPECT_TRUE(m.enable(true, "Y"));
         EXPECT_EQ(m.state(), MachineState::standstill);
-        EXPECT_TRUE(m.jog_by('Y', 5, 10));
+        EXPECT_TRUE(m.manual().jog_by('Y', 5, 10));
     });
     o.run(3);
     EXPECT_GT(o.x(), 10);
@@ -106,13 +107,14 @@ TEST(Machine, MovesNoAxisThatIsDisabled) {
 TEST(Machine, RejectsAnImpossibleJogInTheAnswerToTheCommand) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
-        EXPECT_THAT(refusal_of(m.jog('X', 1e6)), HasSubstr("the jog speed is 1e+06 mm/s; it must be at most"));
-        EXPECT_THAT(refusal_of(m.jog('X', -1e6)), HasSubstr("Nothing was moved"));
-        EXPECT_THAT(refusal_of(m.jog_by('X', 1, 1e6)), HasSubstr("the jog speed is 1e+06 mm/s; it must be at most"));
-        EXPECT_THAT(refusal_of(m.jog_by('X', -1e6, 5)), HasSubstr("the distance is 1e+06 mm, but the travel"));
+        EXPECT_THAT(refusal_of(m.manual().jog('X', 1e6)), HasSubstr("the jog speed is 1e+06 mm/s; it must be at most"));
+        EXPECT_THAT(refusal_of(m.manual().jog('X', -1e6)), HasSubstr("Nothing was moved"));
+        EXPECT_THAT(refusal_of(m.manual().jog_by('X', 1, 1e6)),
+                    HasSubstr("the jog speed is 1e+06 mm/s; it must be at most"));
+        EXPECT_THAT(refusal_of(m.manual().jog_by('X', -1e6, 5)), HasSubstr("the distance is 1e+06 mm, but the travel"));
         EXPECT_EQ(m.state(), MachineState::standstill);
     });
-    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 1, 5)); });
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 1, 5)); });
     o.run(1);
     EXPECT_DOUBLE_EQ(o.x(), 11);
 }

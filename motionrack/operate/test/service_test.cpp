@@ -62,8 +62,8 @@ TEST(Service, CallsFunctionsAndReleasesTheCardWithInvalidPositions) {
         EXPECT_EQ(m.state(), MachineState::standstill);
         EXPECT_EQ(m.status().service, "");
         EXPECT_FALSE(m.line("G1 X20 F600", 1)) << "not valid";
-        EXPECT_TRUE(m.set_position('X', 10));
-        EXPECT_TRUE(m.set_position('Y', 1));
+        EXPECT_TRUE(m.manual().set_position('X', 10));
+        EXPECT_TRUE(m.manual().set_position('Y', 1));
     });
     o.at(0.8, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X12 Y3\nM2\n", "p")); });
     o.run(2);
@@ -80,7 +80,7 @@ TEST(Service, CallsFunctionsAndReleasesTheCardWithInvalidPositions) {
 
 TEST(Service, OfACardThatPositionsItsAxisReleasesIt) {
     Served o(carriage());
-    const auto set_up = [](Machine& m) { EXPECT_TRUE(m.set_position('X', 30)); };
+    const auto set_up = [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 30)); };
     o.at(0.02, set_up);
     o.begin(0.05, "board");
     o.call(0.1, "version", {}, "board");
@@ -94,7 +94,7 @@ TEST(Service, OfACardThatPositionsItsAxisReleasesIt) {
         EXPECT_FALSE(m.status().axes[0].position_valid);
     });
     o.at(1.1, set_up);
-    o.at(1.2, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 5, 20)); });
+    o.at(1.2, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 5, 20)); });
     o.run(3);
     EXPECT_NEAR(o.x(), 35, 0.1);
     EXPECT_EQ(o.machine->state(), MachineState::standstill);
@@ -128,13 +128,13 @@ TEST(Service, PreventsOtherMotion) {
             ASSERT_FALSE(order);
             EXPECT_NE(order.error().message.find(why), std::string::npos) << order.error().message;
         };
-        refused(m.jog('X', 5));
-        refused(m.jog_by('X', 1, 5));
-        refused(m.jog_to({20, 0, 0, 0, 0, 0}, 5));
-        refused(m.home("X"));
+        refused(m.manual().jog('X', 5));
+        refused(m.manual().jog_by('X', 1, 5));
+        refused(m.manual().jog_to({20, 0, 0, 0, 0, 0}, 5));
+        refused(m.manual().home("X"));
         refused(m.line("G1 X20 F600", 1));
         refused(m.begin_program("G0 X20\n", "p"));
-        refused(m.set_position('X', 0));
+        refused(m.manual().set_position('X', 0));
         EXPECT_FALSE(m.resume());
         EXPECT_FALSE(m.manual_access().request({"m", 16, 0, {}}, [](const auto&) {}));
         EXPECT_FALSE(m.service().begin("m", anna, "w1", {}));

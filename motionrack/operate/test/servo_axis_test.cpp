@@ -11,11 +11,11 @@ namespace {
 
 TEST(OperatedServoAxis, MeasuresTheFirstDistanceOfALineFromItsActualPosition) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 100)); });
     o.at(0.2, [&](Machine& m) { EXPECT_TRUE(m.line("G91 G0 X5", 1)); });
     o.at(3, [&](Machine& m) {
         EXPECT_NEAR(o.x(), 105, 0.3);
-        EXPECT_TRUE(m.jog_by('X', 20, 50));
+        EXPECT_TRUE(m.manual().jog_by('X', 20, 50));
     });
     o.at(6, [&](Machine& m) { EXPECT_TRUE(m.line("G91 G0 X5", 2)); });
     o.run(9);
@@ -24,7 +24,7 @@ TEST(OperatedServoAxis, MeasuresTheFirstDistanceOfALineFromItsActualPosition) {
 
 TEST(OperatedServoAxis, ExecutesALongLineInOneMove) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
     o.run(3);
     EXPECT_NEAR(o.x(), 600, 0.3);
@@ -33,7 +33,7 @@ TEST(OperatedServoAxis, ExecutesALongLineInOneMove) {
 
 TEST(OperatedServoAxis, ContinuesToItsTargetAfterAFeedHold) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
     o.at(0.8, [](Machine& m) { EXPECT_TRUE(m.hold()); });
     o.at(3, [&](Machine& m) {
@@ -47,7 +47,7 @@ TEST(OperatedServoAxis, ContinuesToItsTargetAfterAFeedHold) {
 
 TEST(OperatedServoAxis, CountsFromItsStopPosition) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 100)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
     o.at(0.8, [](Machine& m) { m.stop(); });
     double rest = 0;
@@ -67,15 +67,15 @@ TEST(OperatedServoAxis, CountsFromItsStopPosition) {
 
 TEST(OperatedServoAxis, CanBeDeclaredAfterAStoppedHoming) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 0)); });
     o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X200", 1)); });
-    o.at(4, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
+    o.at(4, [](Machine& m) { EXPECT_TRUE(m.manual().home("X")); });
     o.at(4.5, [](Machine& m) { m.stop(); });
     o.at(6, [](Machine& m) {
         EXPECT_FALSE(m.status().axes[0].position_valid);
         m.reset();
     });
-    o.at(6.1, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 150)); });
+    o.at(6.1, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 150)); });
     o.at(6.3, [](Machine& m) {
         EXPECT_TRUE(m.status().axes[0].position_valid) << m.status().reason;
         EXPECT_TRUE(m.line("G91 G0 X5", 1));
@@ -87,8 +87,10 @@ TEST(OperatedServoAxis, CanBeDeclaredAfterAStoppedHoming) {
 TEST(OperatedServoAxis, MovesAgainAfterItsCardWasReset) {
     for (const bool homes : {true, false}) {
         Operated o(carriage());
-        const auto recover = [homes](Machine& m) { EXPECT_TRUE(homes ? m.home("X") : m.set_position('X', 200)); };
-        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
+        const auto recover = [homes](Machine& m) {
+            EXPECT_TRUE(homes ? m.manual().home("X") : m.manual().set_position('X', 200));
+        };
+        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 0)); });
         o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.line("G0 X600", 1)); });
         o.at(0.6, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); });
         o.at(5, [](Machine& m) {
@@ -110,7 +112,7 @@ TEST(OperatedServoAxis, MovesAgainAfterItsCardWasReset) {
 TEST(OperatedServoAxis, IsUsableAfterLinesAndHoldsDuringAHangOfItsCard) {
     for (const double hangs_at : {0.15, 0.3, 0.33, 0.4}) {
         Operated o(carriage());
-        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
+        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 0)); });
         o.at(hangs_at, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); });
         int taken = 0;
         for (int i = 0; i < 200; ++i)
@@ -123,7 +125,7 @@ TEST(OperatedServoAxis, IsUsableAfterLinesAndHoldsDuringAHangOfItsCard) {
         });
         o.at(5, [](Machine& m) {
             EXPECT_EQ(m.state(), MachineState::standstill) << "no line of before is driven";
-            EXPECT_TRUE(m.set_position('X', 100)) << m.status().reason;
+            EXPECT_TRUE(m.manual().set_position('X', 100)) << m.status().reason;
         });
         o.at(5.2, [](Machine& m) { EXPECT_TRUE(m.line("G90 G0 X120", 1)); });
         o.run(9);
@@ -135,12 +137,12 @@ TEST(OperatedServoAxis, IsUsableAfterLinesAndHoldsDuringAHangOfItsCard) {
 
 TEST(OperatedServoAxis, HasTheDeclaredPosition) {
     Operated o(carriage());
-    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)); });
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 100)); });
     double reported = 0;
     o.at(0.2, [&](Machine& m) {
         reported = m.status().axes[0].commanded;
         EXPECT_NEAR(m.status().axes[0].actual, 100, 0.011);
-        EXPECT_TRUE(m.jog_by('X', 20, 50));
+        EXPECT_TRUE(m.manual().jog_by('X', 20, 50));
     });
     o.run(3);
     EXPECT_NEAR(reported, 100, 0.011);
@@ -150,7 +152,7 @@ TEST(OperatedServoAxis, HasTheDeclaredPosition) {
 TEST(OperatedServoAxis, ContinuesCountingWhenPushedBeforeItsCardKnowsThePosition) {
     Operated o(carriage());
     o.at(0.05, [](Machine& m) {
-        EXPECT_TRUE(m.set_position('X', 100));
+        EXPECT_TRUE(m.manual().set_position('X', 100));
         EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.push=59", "X"));  // counts of 0.01 mm
     });
     o.run(0.5);
@@ -166,12 +168,12 @@ TEST(OperatedServoAxis, StaysAtStandstillIfItsCardHangsForLessThanASecond) {
         const char* name;
         void (*begin)(Machine& m);
     };
-    for (const Motion& motion : {Motion{"jog", [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 500, 20)); }},
-                                 Motion{"home", [](Machine& m) { EXPECT_TRUE(m.home("X")); }},
+    for (const Motion& motion : {Motion{"jog", [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 500, 20)); }},
+                                 Motion{"home", [](Machine& m) { EXPECT_TRUE(m.manual().home("X")); }},
                                  Motion{"line", [](Machine& m) { EXPECT_TRUE(m.line("G0 X1500", 1)); }}}) {
         SCOPED_TRACE(motion.name);
         Operated o(carriage());
-        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 0)); });
+        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 0)); });
         o.at(0.2, motion.begin);
         o.at(0.4, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); });
         o.at(1.1, [](Machine& m) {
@@ -185,7 +187,7 @@ TEST(OperatedServoAxis, StaysAtStandstillIfItsCardHangsForLessThanASecond) {
             EXPECT_FALSE(m.status().axes[0].position_valid);
             m.reset();
         });
-        o.at(3.1, [](Machine& m) { EXPECT_TRUE(m.set_position('X', 100)) << m.status().reason; });
+        o.at(3.1, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 100)) << m.status().reason; });
         o.at(3.3, [](Machine& m) { EXPECT_TRUE(m.line("G90 G0 X120", 2)); });
         o.run(6);
         EXPECT_NEAR(o.x(), 120, 0.3);

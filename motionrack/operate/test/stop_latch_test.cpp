@@ -30,8 +30,8 @@ void expect_latched_until_reset(Operated& o, double x) {
         EXPECT_TRUE(m.status().axes[0].position_valid);
         EXPECT_FALSE(m.resume());
         EXPECT_THAT(m.line("G1 X30 F600", 1).error().message, HasSubstr("The emergency stop was pressed"));
-        EXPECT_FALSE(m.jog('X', 5));
-        EXPECT_FALSE(m.home(""));
+        EXPECT_FALSE(m.manual().jog('X', 5));
+        EXPECT_FALSE(m.manual().home(""));
     });
     o.at(4, [](Machine& m) { m.reset(); });
     o.at(5, [x](Machine& m) {
@@ -129,7 +129,7 @@ void expect_reset_does_not_release(const std::function<void(Machine&)>& later_st
     o.at(3, [&](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop) << "nobody has reset since";
         EXPECT_FALSE(m.line("G1 X30 F600", 1));
-        EXPECT_FALSE(m.jog('X', 5));
+        EXPECT_FALSE(m.manual().jog('X', 5));
         stood = m.status().axes[0].commanded;
         m.reset();
     });
@@ -190,7 +190,7 @@ TEST(StopLatch, EndsAJogThatIsRenewedThroughAShortPressOfTheButton) {
             o.at(1.05, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
             o.at(1.08, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 1)); });
         }
-        o.at(0.1 + 0.1 * i, [](Machine& m) { (void)m.jog('X', 20); });
+        o.at(0.1 + 0.1 * i, [](Machine& m) { (void)m.manual().jog('X', 20); });
     }
     o.run(4);
     EXPECT_EQ(o.machine->state(), MachineState::error_stop);
@@ -199,13 +199,13 @@ TEST(StopLatch, EndsAJogThatIsRenewedThroughAShortPressOfTheButton) {
 
 TEST(StopLatch, AllowsJoggingOffALimitSwitchAfterAReset) {
     Operated o(two_axes("[axis.X.switches]\nlimit_plus_mm = 12\n"));
-    for (double t = 0.1; t < 1; t += 0.1) o.at(t, [](Machine& m) { (void)m.jog('X', 5); });
+    for (double t = 0.1; t < 1; t += 0.1) o.at(t, [](Machine& m) { (void)m.manual().jog('X', 5); });
     o.at(2, [](Machine& m) {
         EXPECT_EQ(m.state(), MachineState::error_stop);
         EXPECT_TRUE(m.status().axes[0].position_valid) << "it has decelerated";
         m.reset();
     });
-    o.at(2.5, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', -4, 5)); });
+    o.at(2.5, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', -4, 5)); });
     o.run(5);
     EXPECT_EQ(o.machine->state(), MachineState::standstill);
     EXPECT_LT(o.x(), 9);
@@ -214,11 +214,11 @@ TEST(StopLatch, AllowsJoggingOffALimitSwitchAfterAReset) {
 TEST(StopLatch, StopsAllThatIsJoggedWhereOneAxisReachesItsLimitSwitch) {
     for (const bool by_distance : {true, false}) {
         Operated o(two_axes("[axis.Y.switches]\nlimit_plus_mm = 5\n"));
-        if (by_distance) o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 200, 20)); });
+        if (by_distance) o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 200, 20)); });
         for (double t = 0.1; t < 2; t += 0.1)
             o.at(t, [by_distance](Machine& m) {
-                if (!by_distance) (void)m.jog('X', 20);
-                (void)m.jog('Y', 20);
+                if (!by_distance) (void)m.manual().jog('X', 20);
+                (void)m.manual().jog('Y', 20);
             });
         o.run(3);
         EXPECT_EQ(o.machine->state(), MachineState::error_stop);
@@ -232,9 +232,10 @@ TEST(StopLatch, StopsTheFourthAxisOfAPathWhereAnotherReachesItsLimitSwitch) {
         config.controller.profile = profile;
         Operated o(config);
         o.at(0.05, [](Machine& m) {
-            for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
+            for (const AxisStatus& axis : m.status().axes)
+                EXPECT_TRUE(m.manual().set_position(axis.letter, axis.true_position));
         });
-        o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_to({80, 80, 20, 20}, 50)); });
+        o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog_to({80, 80, 20, 20}, 50)); });
         o.at(0.5, [](Machine& m) {
             EXPECT_GT(m.status().axes[3].velocity, 2);
             EXPECT_TRUE(m.wires().force("Z.limit_minus", 0));
@@ -261,7 +262,8 @@ TEST(StopByACard, InvalidatesAnAxisWhosePulsesEndWithoutARamp) {
         config.controller.profile = profile;
         Operated o(config);
         o.at(0.05, [](Machine& m) {
-            for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
+            for (const AxisStatus& axis : m.status().axes)
+                EXPECT_TRUE(m.manual().set_position(axis.letter, axis.true_position));
         });
         o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.limit_minus", 0)); });
         o.at(0.15, [](Machine& m) { m.reset(); });
@@ -285,7 +287,8 @@ TEST(StopByACard, InvalidatesAnAxisWhosePulsesEndWithoutARamp) {
 TEST(StopLatch, InvalidatesPositionsAtOnceWhereTheEmergencyStopEndsThePulsesOfAHold) {
     Operated o(router());
     o.at(0.05, [](Machine& m) {
-        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.set_position(axis.letter, axis.true_position));
+        for (const AxisStatus& axis : m.status().axes)
+            EXPECT_TRUE(m.manual().set_position(axis.letter, axis.true_position));
     });
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG0 X200\nM2\n", "p")); });
     o.at(0.5, [](Machine& m) { EXPECT_TRUE(m.hold()); });
@@ -299,7 +302,7 @@ TEST(StopLatch, InvalidatesPositionsAtOnceWhereTheEmergencyStopEndsThePulsesOfAH
 
 TEST(StopLatch, IsNotSetByTheSwitchesOfAHoming) {
     Operated o(two_axes(switches));
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().home("X")); });
     o.run(20);
     EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().reason;
     EXPECT_TRUE(o.machine->status().axes[0].position_valid);
@@ -315,7 +318,7 @@ TEST(StopLatch, InvalidatesAPositionThatALimitSwitchStopsAtOnceWithTheErrorStop)
         o.each_status([&](const Status& status) {
             if (!valid && status.state == MachineState::error_stop) valid = status.axes[0].position_valid;
         });
-        o.at(0.1, [&](Machine& m) { EXPECT_TRUE(m.jog_to({100, 30}, velocity)); });
+        o.at(0.1, [&](Machine& m) { EXPECT_TRUE(m.manual().jog_to({100, 30}, velocity)); });
         o.at(at, [](Machine& m) { EXPECT_TRUE(m.wires().force("X.limit_plus", 0)); });
         o.run(at + 0.3);
         ASSERT_TRUE(valid);

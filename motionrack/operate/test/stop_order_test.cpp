@@ -15,8 +15,9 @@ TEST(Disabling, PrecedesALaterStart) {
     o.at(0.05, set_all_positions);
     o.at(0.1, [](Machine& m) {
         EXPECT_TRUE(m.enable(false));
-        for (const Result<void>& start : {m.begin_program("G21 G90 F600\nG1 X20\n", "p"), m.home("X"), m.jog('X', 5),
-                                          m.jog_by('X', 5, 5), m.jog_to({20, 0, 0, 0, 0, 0}, 5)})
+        for (const Result<void>& start :
+             {m.begin_program("G21 G90 F600\nG1 X20\n", "p"), m.manual().home("X"), m.manual().jog('X', 5),
+              m.manual().jog_by('X', 5, 5), m.manual().jog_to({20, 0, 0, 0, 0, 0}, 5)})
             EXPECT_THAT(refusal_of(start), HasSubstr("axis X is disabled"));
         EXPECT_FALSE(m.line("G1 X20 F600", 1));
     });
@@ -41,7 +42,7 @@ TEST(Cancelling, AtStandstillDoesNotEndLaterCommands) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
         m.cancel();
-        EXPECT_TRUE(m.jog_by('X', 5, 20));
+        EXPECT_TRUE(m.manual().jog_by('X', 5, 20));
     });
     o.run(1);
     EXPECT_NEAR(o.x(), 15, 1e-9);
@@ -161,7 +162,7 @@ TEST(DeclaredPositions, AreAllExecutedHoweverFastTheyArrive) {
     o.each_status([&](const Status& status) {
         if (to_seconds(status.at) < 0.1 || to_seconds(status.at) > 0.4) return;
         const double position = 10 + 100 * to_seconds(status.at);
-        if (o.machine->set_position('X', position)) last = position;
+        if (o.machine->manual().set_position('X', position)) last = position;
     });
     o.run(1.5);
     EXPECT_GT(last, 40);

@@ -110,15 +110,15 @@ constexpr State states[] = {
      }},
     {"probing", MachineState::moving, [](Operated& o, double) { program(o, "G21 G90\nG38.2 X290 F1200\nM2\n"); }},
     {"homing", MachineState::homing,
-     [](Operated& o, double) { o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.home("X")); }); }},
+     [](Operated& o, double) { o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().home("X")); }); }},
     {"jog", MachineState::jogging,
      [](Operated& o, double stop_s) {
-         for (double t = 0.05; t < stop_s + 0.3; t += 0.1) o.at(t, [](Machine& m) { (void)m.jog('X', 20); });
+         for (double t = 0.05; t < stop_s + 0.3; t += 0.1) o.at(t, [](Machine& m) { (void)m.manual().jog('X', 20); });
      }},
     {"jog_along_a_line", MachineState::jogging,
-     [](Operated& o, double) { o.at(0.05, [](Machine& m) {
-                                   EXPECT_TRUE(m.jog_to({300, 0, 0, 0, 0, 0}, 20));
-                               }); }},
+     [](Operated& o, double) {
+         o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().jog_to({300, 0, 0, 0, 0, 0}, 20)); });
+     }},
     {"service", MachineState::service,
      [](Operated& o, double) {
          o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.service().begin("m", {"anna", "", ""}, "w1", {})); });
@@ -188,8 +188,8 @@ class StopInAState : public testing::TestWithParam<Case> {
     /// over.
     void begin_tools() {
         o_.at(0.004, [](Machine& m) {
-            EXPECT_TRUE(m.set_position('X', 100));
-            EXPECT_TRUE(m.set_position('Y', 0));
+            EXPECT_TRUE(m.manual().set_position('X', 100));
+            EXPECT_TRUE(m.manual().set_position('Y', 0));
         });
         o_.at(0.016, [](Machine& m) { EXPECT_TRUE(m.line("M3 S1000 M7 M8", 1)); });
     }
@@ -257,8 +257,8 @@ TEST_P(StopInAState, HoldsUntilAReset) {
         EXPECT_EQ(m.status().alarms.size(), source().source == StopSource::stop_command ? 0u : 1u);
         EXPECT_FALSE(m.line("G1 X110 F600", 1));
         EXPECT_FALSE(m.begin_program("G0 X110\n", "q"));
-        EXPECT_FALSE(m.jog('X', 5));
-        EXPECT_FALSE(m.home("X"));
+        EXPECT_FALSE(m.manual().jog('X', 5));
+        EXPECT_FALSE(m.manual().home("X"));
         EXPECT_LT(stage_velocity(), 0.001);
         EXPECT_EQ(belt_velocity(), 0);
         m.reset();
@@ -296,8 +296,8 @@ TEST(GeneralOutputs, GoLowAtAnEmergencyStopAndKeepTheirLevelsAtAllOtherStops) {
         const double expected = source.source == StopSource::emergency_stop ? 0 : 1;
         Operated o(rack_with_everything());
         o.at(0.004, [](Machine& m) {
-            EXPECT_TRUE(m.set_position('X', 100));
-            EXPECT_TRUE(m.set_position('Y', 0));
+            EXPECT_TRUE(m.manual().set_position('X', 100));
+            EXPECT_TRUE(m.manual().set_position('Y', 0));
         });
         program(o, one_long_line);
         o.at(0.3, [](Machine& m) { m.rack().card("m")->registers()->write(mcx314::reg::WR4, 0xFFFF); });
