@@ -29,8 +29,6 @@ Machine::Machine(const rack::RackConfig& config, MachineSettings settings)
     : settings_(std::move(settings)),
       rack_(placed(config, settings_.initial_axes)),
       context_(rack_),
-      tap_(rack_.kernel()),
-      probe_(rack_.kernel()),
       validity_(rack_),
       door_(rack_),
       manual_({.rack = rack_,
@@ -46,7 +44,6 @@ Machine::Machine(const rack::RackConfig& config, MachineSettings settings)
               {.jog_lease = settings_.jog_lease,
                .wall = settings_.wall ? settings_.wall : [this] { return now(); },
                .slice = settings_.slice}) {
-    if (rack::grating_bus_of(rack_) != nullptr) frames_.emplace(rack_);
     rack_.input_log().keep_no_more();
 }
 

@@ -21,6 +21,7 @@
 #include <motionrack/operate/axis_enables.hpp>
 #include <motionrack/operate/axis_handover.hpp>
 #include <motionrack/operate/door.hpp>
+#include <motionrack/operate/instruments.hpp>
 #include <motionrack/operate/manual_access.hpp>
 #include <motionrack/operate/manual_operation.hpp>
 #include <motionrack/operate/pending_stop.hpp>
@@ -31,10 +32,7 @@
 #include <motionrack/operate/start_conditions.hpp>
 #include <motionrack/operate/status.hpp>
 #include <motionrack/operate/status_publisher.hpp>
-#include <motionrack/rack/frame_monitor.hpp>
-#include <motionrack/rack/periodic_sampler.hpp>
 #include <motionrack/rack/rack.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
 #include <motionrack/rack/wire_access.hpp>
 #include <mutex>
 #include <optional>
@@ -127,10 +125,7 @@ class Machine {
     ManualAccess& manual_access() { return manual_access_; }
     rack::Rack& rack() { return rack_; }
     rack::WireAccess& wires() { return context_; }
-    /// For recordings of on-demand pins, for periodic samples, and for the grating bus, if present.
-    rack::WireTap& tap() { return tap_; }
-    rack::PeriodicSampler& probe() { return probe_; }
-    const rack::FrameMonitor* frames() const { return frames_ ? &*frames_ : nullptr; }
+    Instruments& instruments() { return instruments_; }
     Instant now() const { return rack_.kernel().now(); }
 
   private:
@@ -150,9 +145,7 @@ class Machine {
     MachineSettings settings_;
     rack::Rack rack_;
     rack::WireAccess context_;
-    rack::WireTap tap_;
-    rack::PeriodicSampler probe_;
-    std::optional<rack::FrameMonitor> frames_;
+    Instruments instruments_{rack_};
     ProgramRun programs_;
     AxisHandover handover_{rack_, programs_};
     PositionValidity validity_;

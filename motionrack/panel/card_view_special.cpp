@@ -64,7 +64,7 @@ Result<json> slopes_now(rack::Rack& rack, const std::string& name) {
 }
 
 Result<json> frames_now(operate::Machine& machine) {
-    const rack::FrameMonitor* watch = machine.frames();
+    const rack::FrameMonitor* watch = machine.instruments().frames();
     if (watch == nullptr) return fail(ErrorKind::refused, "The rack has no grating bus, so it has no frames.");
     json cards = json::array();
     const std::vector<rack::FrameRow> rows = watch->rows();

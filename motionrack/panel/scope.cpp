@@ -95,7 +95,7 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
 Result<void> Scope::listen_to_wires(const std::vector<std::string>& wires) {
     rack::WaveSettings settings;
     settings.signals = wires;
-    settings.tap = &machine_.tap();
+    settings.tap = &machine_.instruments().tap();
     settings.sink = [this](const std::vector<rack::WaveSignal>& signals) -> std::unique_ptr<rack::WaveSink> {
         places_.clear();
         for (const rack::WaveSignal& signal : signals) {
@@ -119,7 +119,7 @@ void Scope::begin_numbers() {
     first_sample_ = machine_.now();
     written_ = seen_ = 0;
     probing_ = true;
-    machine_.probe().begin(settings_.period, [this](Instant now) { sample(now); });
+    machine_.instruments().sampler().begin(settings_.period, [this](Instant now) { sample(now); });
 }
 
 /// Called within the kernel's run.
@@ -137,7 +137,7 @@ void Scope::stop() {
 
 void Scope::detach() {
     recorder_.reset();
-    if (std::exchange(probing_, false)) machine_.probe().end();
+    if (std::exchange(probing_, false)) machine_.instruments().sampler().end();
     edges_.clear();
 }
 
