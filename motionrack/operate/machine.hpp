@@ -13,6 +13,13 @@
 //
 // Only the motion thread touches the rack. Posted work runs there between two runs of the kernel, often in the middle
 // of a motion. So commands only record requests, and the motion thread's loop executes them.
+//
+// Machine has the states and the loop, and wires its parts, each of which owns its own state:
+//   StatusPublisher   status, listeners          AxisHandover     the driver that has the axes
+//   AlarmList         alarms                     AxisEnables      enabled axes
+//   ProgramRun        executor, programs, lines  PositionSetter   set positions until they are executed
+//   ManualOperation   jogs, homing               PendingStop      stops and resets until they are executed
+//   StartConditions   reasons of refusals        Instruments      recordings, samples, frames of the grating bus
 #pragma once
 
 #include <functional>
@@ -111,13 +118,14 @@ class Machine {
     // ---- queries, on the motion thread
     const Status& status() const { return publisher_.status(); }
     MachineState state() const { return publisher_.state(); }
+    /// For starts that are not commands of the machine.
     const StartConditions& conditions() const { return conditions_; }
     /// Returns true if the position of this axis is valid.
     bool position_valid(const rack::RackAxis& axis) const { return validity_.of(axis.letter); }
-    /// The running program, room for lines, overrides, single block and work offsets.
+    /// Settings for programs and lines: overrides, single block, work offsets.
     ProgramRun& programs() { return programs_; }
     const control::StreamExecutor& stream() const { return programs_.stream(); }
-    /// Jogs, homing, set positions.
+    /// Commands for jogs, homing and set positions.
     ManualOperation& manual() { return manual_; }
     /// Manual calls of a card's function library.
     Service& service() { return service_; }

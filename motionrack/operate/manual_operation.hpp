@@ -60,8 +60,6 @@ class ManualOperation {
     Result<void> home(std::string axes);
     /// Sets the position of an axis, which is valid then. Refused while something moves.
     Result<void> set_position(char axis, double position);
-    /// Drops the requests, and ends homing and jogs.
-    void cancel();
 
     // ---- queries
     /// Jogs of single axes and their leases.
@@ -70,11 +68,13 @@ class ManualOperation {
     const std::optional<rack::HomingOutcome>& last_homing() const { return homed_; }
     bool wants_homing() const { return home_wanted_.has_value(); }
 
-    // ---- steps of the motion thread
+    // ---- steps, for the loop of Machine
     /// Moves the jogging axes on for a slice. `failed` is called with each failure that ends all motion.
     void step_jogs(const std::function<void(const Error&)>& failed);
     /// Homes the requested axes, to the end. Errors: a failure that ends all motion.
     Result<void> step_homing();
+    /// Drops the requests, and ends homing and jogs.
+    void cancel();
     /// Everything stands: homing may begin again.
     void end_stop() { home_stop_ = false; }
 

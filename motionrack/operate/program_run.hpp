@@ -20,7 +20,7 @@ class ProgramRun {
     control::StreamExecutor& stream() { return *stream_; }
     const control::StreamExecutor& stream() const { return *stream_; }
 
-    // ---- a whole program
+    // ---- a whole program, for Machine
     /// Checks it, then begins it. Errors: invalid_input: its first problem with line and column.
     Result<void> begin(std::string text, std::string name);
     /// Feeds its lines while the executor has room. Errors: a line cannot be executed.
@@ -35,7 +35,8 @@ class ProgramRun {
     /// Name of the program that was started last.
     const std::string& name() const { return name_; }
 
-    // ---- single lines
+    // ---- single lines, for Machine and manual operation
+    /// Returns true if a line is accepted: no program runs, and the executor has room.
     bool has_room() const { return stream_->has_room() && !runs_; }
     /// Queues a line. Requires has_room(). On an error it has no effect.
     control::gcode::Outcome<void> line(std::string_view text, std::int32_t number, Instant now);
@@ -44,7 +45,7 @@ class ProgramRun {
     /// Returns true if lines may follow soon: of a program, or of a sender that has paused for less than `quiet`.
     bool more_may_come(Instant now, Duration quiet) const;
 
-    // ---- settings
+    // ---- settings, also from clients
     void set_overrides(double feed, double rapid) {
         stream_->set_overrides(feed_override_ = feed, rapid_override_ = rapid);
     }
