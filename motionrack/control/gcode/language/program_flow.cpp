@@ -16,18 +16,14 @@ constexpr double max_loop_repeats = 1e9;
 
 ProgramFlow::ProgramFlow(std::string_view text, const Settings& settings, std::string file)
     : lines_(text),
-      block_delete_(settings.block_delete),
       end_(settings.block_delete),
       max_lines_(settings.max_lines),
-      subprogram_(settings.subprogram) {
-    sources_.push_back(std::make_unique<ProgramSource>());
-    source_ = sources_.back().get();
-    source_->text = text;
-    source_->file = std::move(file);
-}
+      subprogram_(settings.subprogram),
+      texts_(text, std::move(file), settings.block_delete),
+      source_(&texts_.program()) {}
 
 void ProgramFlow::see_end(std::string_view line) {
-    if (source_ == sources_.front().get() && end_.is_at(line)) over_ = true;
+    if (source_ == &texts_.program() && end_.is_at(line)) over_ = true;
 }
 
 void ProgramFlow::location(Problem& problem) const {
@@ -40,12 +36,6 @@ void ProgramFlow::line_rejected(std::string_view text, Problem& problem) {
     see_end(text);
 }
 
-Problem ProgramFlow::take_fault() {
-    Problem first = std::move(faults_.front());
-    faults_.erase(faults_.begin());
-    return first;
-}
-
 bool ProgramFlow::fail(const OWordLocation& location, std::size_t column, std::string message) {
     set_problem(problem_, location.text, column, GrblStatus::unsupported, std::move(message));
     problem_.location.line = location.line;
@@ -53,14 +43,10 @@ bool ProgramFlow::fail(const OWordLocation& location, std::size_t column, std::s
     return false;
 }
 
-bool ProgramFlow::make_index(ProgramSource& source) {
-    source.index = index_owords(source.text, block_delete_);
-    for (Problem& problem : source.index->problems) {
-        problem.file = source.file;
-        faults_.push_back(std::move(problem));
-    }
-    over_ = over_ || !faults_.empty();
-    return faults_.empty();
+bool ProgramFlow::make_index(ProgramTexts::ProgramSource& source) {
+    const bool good = texts_.make_index(source);
+    over_ = over_ || !good;
+    return good;
 }
 
 Outcome<void> ProgramFlow::follow(Interpreter& interpreter) {
@@ -83,7 +69,7 @@ bool ProgramFlow::within_budget(const OWordLocation& location) {
     furthest_ = highest_line();
     walked_ += lines_.number() - counted_from_;
     counted_from_ = lines_.number();
-    const ProgramSource& main = *sources_.front();
+    const ProgramTexts::ProgramSource& main = texts_.program();
     if (walked_ <= max_lines_ + (main.index ? main.index->lines : source_->index->lines)) return true;
     over_ = true;
     return fail(location, location.column,
@@ -130,7 +116,7 @@ bool ProgramFlow::execute(const OWordLocation& location, std::int32_t at, Interp
         case OWord::repeat:
             return begin_repeat(location, at, interpreter);
         case OWord::endrepeat:
-            end_repeat(location);
+            if (repeats_.next(location.begin)) jump(place_at(location.begin));
             return true;
         case OWord::break_loop:
             break_loop(place_at(location.begin));
@@ -176,33 +162,18 @@ bool ProgramFlow::begin_repeat(const OWordLocation& location, std::int32_t at, I
         jump(place_at(location.end));
         return good;
     }
-    repeats_.push_back({at, static_cast<std::int64_t>(times)});
+    repeats_.begin(at, static_cast<std::int64_t>(times));
     return true;
 }
 
-void ProgramFlow::end_repeat(const OWordLocation& location) {
-    if (repeats_.empty() || repeats_.back().location != location.begin) return;
-    if (--repeats_.back().left > 0)
-        jump(place_at(location.begin));
-    else
-        repeats_.pop_back();
-}
-
-/// Removes the repeats of this call between two locations.
-void ProgramFlow::forget_repeats(std::int32_t first, std::int32_t last) {
-    const std::size_t outer = frames_.empty() ? 0 : frames_.back().repeats;
-    while (repeats_.size() > outer && repeats_.back().location >= first && repeats_.back().location < last)
-        repeats_.pop_back();
-}
-
 void ProgramFlow::break_loop(const OWordLocation& loop) {
-    forget_repeats(loop.begin, loop.end);
+    repeats_.end_between(loop.begin, loop.end);
     jump(place_at(loop.end));
 }
 
 /// Starts the next iteration of a loop, or leaves it.
 void ProgramFlow::continue_loop(const OWordLocation& loop) {
-    forget_repeats(loop.begin + 1, loop.end);
+    repeats_.end_between(loop.begin + 1, loop.end);
     const OWordLocation& decides = loop.word == OWord::while_true ? loop : place_at(loop.end);
     // The deciding line is executed again: returns to the end of the line before it.
     lines_ = decides.before;

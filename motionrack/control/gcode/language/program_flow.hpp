@@ -13,9 +13,10 @@
 // word creates an index of the text.
 #pragma once
 
-#include <memory>
 #include <motionrack/control/gcode/interpreter.hpp>
 #include <motionrack/control/gcode/language/oword_index.hpp>
+#include <motionrack/control/gcode/language/program_texts.hpp>
+#include <motionrack/control/gcode/language/repeat_loops.hpp>
 #include <optional>
 
 namespace motionrack::control::gcode {
@@ -46,75 +47,52 @@ class ProgramFlow {
     std::int32_t number() const { return called_at_ != 0 ? called_at_ : lines_.number(); }
     /// Returns the highest number() so far.
     std::int32_t highest_line() const { return std::max(furthest_, number()); }
-    const std::string& file() const { return sources_.front()->file; }  ///< file of the program
+    const std::string& file() const { return texts_.program().file; }  ///< file of the program
     bool at_end() const { return lines_.at_end(); }
     /// Processes a line with an error: completes the position in `problem` and checks for the end of the program.
     void line_rejected(std::string_view text, Problem& problem);
 
     /// Returns true if O words do not match; nothing more is executed then.
-    bool has_faults() const { return !faults_.empty(); }
-    Problem take_fault();
+    bool has_faults() const { return texts_.has_faults(); }
+    Problem take_fault() { return texts_.take_fault(); }
 
   private:
-    /// A text with O words: the program or the file of a subprogram.
-    struct ProgramSource {
-        std::string kept;  ///< storage of `text`, unless it is the program
-        std::string_view text;
-        std::string file;
-        std::optional<OWordIndex> index;
-    };
+    using SubTarget = ProgramTexts::SubTarget;
     struct CallFrame {
         ProgramLines back;
-        ProgramSource* source = nullptr;
-        std::size_t repeats = 0;
+        ProgramTexts::ProgramSource* source = nullptr;
         std::int32_t called_at = 0;
         std::int32_t program = no_location;  ///< numbered program: its start
         std::int64_t left = 0;               ///< remaining repetitions
-    };
-    /// An active repeat loop.
-    struct Repeat {
-        std::int32_t location;
-        std::int64_t left;
-    };
-    struct Target {
-        ProgramSource* source;
-        std::int32_t location;
     };
 
     Outcome<void> follow(Interpreter& interpreter);
     Outcome<void> follow_program(Interpreter& interpreter);
     Outcome<void> follow_contour(Interpreter& interpreter);
     bool read_contour(Interpreter& reader, std::vector<ContourSegment>& contour);
-    bool add_contour(Interpreter& reader, const OWordLocation& here, std::vector<ContourSegment>& contour, Point& at,
-                     bool& begun);
     OWordLocation this_line(const Block& block, std::size_t column) const;
     bool call_program(const OWordLocation& location, Interpreter& interpreter);
     bool leave_program(const OWordLocation& location, Interpreter& interpreter);
     bool end_call(const OWordLocation& location, Interpreter& interpreter, std::optional<double> returned);
     bool text_ended();
-    void enter(const Target& target, std::int32_t program, std::int64_t times);
+    void enter(const SubTarget& target, std::int32_t program, std::int64_t times);
     void back_to_caller();
     void see_end(std::string_view line);
     void location(Problem& problem) const;
-    bool make_index(ProgramSource& source);
+    bool make_index(ProgramTexts::ProgramSource& source);
     bool within_budget(const OWordLocation& location);
     bool execute(const OWordLocation& location, std::int32_t at, Interpreter& interpreter);
     bool choose(std::int32_t at, Interpreter& interpreter);
     bool begin_repeat(const OWordLocation& location, std::int32_t at, Interpreter& interpreter);
-    void end_repeat(const OWordLocation& location);
     void break_loop(const OWordLocation& loop);
     void continue_loop(const OWordLocation& loop);
     bool call(const OWordLocation& location, Interpreter& interpreter);
     bool return_sub(const OWordLocation& location, Interpreter& interpreter);
-    bool find_sub(const OWordLocation& location, const std::string& label, bool numbered, Target& target);
-    bool look_for(const std::string& label, bool numbered, Target& target);
-    bool load(const OWordLocation& location, const std::string& label, bool numbered, Target& target);
+    bool find_sub(const OWordLocation& location, const std::string& label, bool numbered, SubTarget& target);
+    bool load(const OWordLocation& location, const std::string& label, bool numbered, SubTarget& target);
     bool evaluate(const OWordLocation& location, Interpreter& interpreter, double& value);
-    bool arguments(const OWordLocation& location, std::size_t max_values, Interpreter& interpreter,
-                   std::vector<double>& values);
     bool label_of_call(const OWordLocation& location, Interpreter& interpreter, std::string& label);
     void jump(const OWordLocation& location);
-    void forget_repeats(std::int32_t first, std::int32_t last);
     const OWordLocation& place_at(std::int32_t at) const {
         return source_->index->locations[static_cast<std::size_t>(at)];
     }
@@ -122,7 +100,6 @@ class ProgramFlow {
 
     ProgramLines lines_;
     bool over_ = false;
-    bool block_delete_;
     ProgramEndDetector end_;  ///< for the text of the program
     std::int32_t called_at_ = 0;
     std::int32_t furthest_ = 0;
@@ -130,11 +107,10 @@ class ProgramFlow {
     std::int64_t walked_ = 0;        ///< lines, up to the last jump
     std::int32_t counted_from_ = 0;  ///< target line of the last jump
     SubprogramSource subprogram_;
-    std::vector<std::unique_ptr<ProgramSource>> sources_;
-    ProgramSource* source_;
+    ProgramTexts texts_;
+    ProgramTexts::ProgramSource* source_;
     std::vector<CallFrame> frames_;
-    std::vector<Repeat> repeats_;
-    std::vector<Problem> faults_;
+    RepeatLoops repeats_;
     Problem problem_;
 };
 

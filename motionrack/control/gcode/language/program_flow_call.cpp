@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <motionrack/control/gcode/language/machine_parameters.hpp>
+#include <motionrack/control/gcode/language/oword_values.hpp>
 #include <motionrack/control/gcode/language/program_flow.hpp>
 #include <motionrack/control/gcode/number.hpp>
 
@@ -38,41 +39,9 @@ std::string too_deep(const std::string& asks) {
 
 }  // namespace
 
-/// Evaluates the values in brackets up to the end of the line.
-bool ProgramFlow::arguments(const OWordLocation& location, std::size_t max_values, Interpreter& interpreter,
-                            std::vector<double>& values) {
-    const MachineParameters known(interpreter);
-    ExpressionParser reader(location.text, known);
-    const char* at = location.text.data() + location.rest;
-    const char* end = location.text.data() + location.text.size();
-    for (;;) {
-        while (at < end && is_blank(*at)) ++at;
-        const auto column = static_cast<std::size_t>(at - location.text.data());
-        if (at == end || *at != '[') {
-            if (is_rest_empty(location.text, column)) return true;
-            return fail(
-                location, column,
-                fmt::format("{} takes values in brackets, e.g. [#1 + 2], and comments", name_of(location.word)));
-        }
-        if (values.size() == max_values) {
-            return fail(location, column,
-                        max_values == 1 ? fmt::format("{} takes one value", name_of(location.word))
-                                        : fmt::format("a call has at most {} arguments", max_values));
-        }
-        double value = 0;
-        if (!reader.value(at, value)) return fail(location, reader.fault_at(), reader.fault());
-        values.push_back(value);
-    }
-}
-
-/// Evaluates the single value of a condition.
 bool ProgramFlow::evaluate(const OWordLocation& location, Interpreter& interpreter, double& value) {
-    std::vector<double> values;
-    if (!arguments(location, 1, interpreter, values)) return false;
-    if (values.empty())
-        return fail(location, location.column,
-                    fmt::format("{} needs a value in brackets, e.g. [#1 LT 5]", name_of(location.word)));
-    value = values.front();
+    if (std::optional<OWordFault> fault = evaluate_condition(location, interpreter, value))
+        return fail(location, fault->column, std::move(fault->message));
     return true;
 }
 
@@ -95,11 +64,11 @@ bool ProgramFlow::label_of_call(const OWordLocation& location, Interpreter& inte
 
 bool ProgramFlow::call(const OWordLocation& location, Interpreter& interpreter) {
     std::string label;
-    Target target{};
+    SubTarget target{};
+    if (!label_of_call(location, interpreter, label) || !find_sub(location, label, false, target)) return false;
     std::vector<double> values;
-    if (!label_of_call(location, interpreter, label) || !find_sub(location, label, false, target) ||
-        !arguments(location, max_arguments, interpreter, values))
-        return false;
+    if (std::optional<OWordFault> fault = evaluate_values(location, max_arguments, interpreter, values))
+        return fail(location, fault->column, std::move(fault->message));
     if (!interpreter.parameters().enter(values))
         return fail(location, location.column, too_deep(asks_for(label, false)));
     interpreter.parameters().forget_returned();
@@ -107,30 +76,18 @@ bool ProgramFlow::call(const OWordLocation& location, Interpreter& interpreter) 
     return true;
 }
 
-void ProgramFlow::enter(const Target& target, std::int32_t program, std::int64_t times) {
-    frames_.push_back({lines_, source_, repeats_.size(), called_at_, program, times});
+void ProgramFlow::enter(const SubTarget& target, std::int32_t program, std::int64_t times) {
+    frames_.push_back({lines_, source_, called_at_, program, times});
+    repeats_.enter_call();
     if (called_at_ == 0 && target.source != source_) called_at_ = lines_.number();
     source_ = target.source;
     jump(place_at(target.location));
 }
 
-bool ProgramFlow::look_for(const std::string& label, bool numbered, Target& target) {
-    const auto open_in = [&](ProgramSource* source) {
-        if (!source->index) return false;
-        const auto& named = numbered ? source->index->programs : source->index->subs;
-        const auto found = named.find(label);
-        if (found == named.end()) return false;
-        target = {source, found->second};
-        return true;
-    };
-    return open_in(source_) ||
-           std::any_of(sources_.begin(), sources_.end(), [&](const auto& source) { return open_in(source.get()); });
-}
-
 /// Finds a sub or a numbered program in the same text, in a text read before, or in a file.
-bool ProgramFlow::find_sub(const OWordLocation& location, const std::string& label, bool numbered, Target& target) {
-    if (look_for(label, numbered, target)) return true;
-    if (look_for(label, !numbered, target)) {
+bool ProgramFlow::find_sub(const OWordLocation& location, const std::string& label, bool numbered, SubTarget& target) {
+    if (texts_.find(*source_, label, numbered, target)) return true;
+    if (texts_.find(*source_, label, !numbered, target)) {
         return fail(location, location.column,
                     fmt::format("{}: {} is {}; call it by {}", asks_for(label, numbered), text_of(label, !numbered),
                                 numbered ? "a sub" : "a numbered program", asks_for(label, !numbered)));
@@ -138,7 +95,7 @@ bool ProgramFlow::find_sub(const OWordLocation& location, const std::string& lab
     return load(location, label, numbered, target);
 }
 
-bool ProgramFlow::load(const OWordLocation& location, const std::string& label, bool numbered, Target& target) {
+bool ProgramFlow::load(const OWordLocation& location, const std::string& label, bool numbered, SubTarget& target) {
     const std::string name(without_marks(label)), asks = asks_for(label, numbered), wanted = text_of(label, numbered);
     if (!subprogram_) {
         return fail(
@@ -152,7 +109,7 @@ bool ProgramFlow::load(const OWordLocation& location, const std::string& label, 
                                 "digits, '_', '-' and '.')",
                                 asks, wanted));
     }
-    if (sources_.size() > max_files)
+    if (texts_.size() > max_files)
         return fail(location, location.column,
                     fmt::format("a program may use {} files of subprograms; this is one more", max_files));
     Result<std::string> text = subprogram_(name);
@@ -162,11 +119,7 @@ bool ProgramFlow::load(const OWordLocation& location, const std::string& label, 
         problem_.kind = text.error().kind;
         return false;
     }
-    auto source = std::make_unique<ProgramSource>();
-    source->kept = std::move(*text);
-    source->text = source->kept;
-    source->file = name + ".ngc";
-    ProgramSource& kept = *sources_.emplace_back(std::move(source));
+    ProgramTexts::ProgramSource& kept = texts_.add(std::move(*text), name + ".ngc");
     if (!make_index(kept)) {
         problem_ = take_fault();
         return false;
@@ -181,7 +134,8 @@ bool ProgramFlow::load(const OWordLocation& location, const std::string& label, 
 
 bool ProgramFlow::return_sub(const OWordLocation& location, Interpreter& interpreter) {
     std::vector<double> values;
-    bool good = arguments(location, 1, interpreter, values);
+    std::optional<OWordFault> fault = evaluate_values(location, 1, interpreter, values);
+    bool good = !fault || fail(location, fault->column, std::move(fault->message));
     if (frames_.empty()) return good;
     good =
         end_call(location, interpreter, values.empty() ? std::nullopt : std::optional<double>(values.front())) && good;
@@ -202,7 +156,7 @@ void ProgramFlow::back_to_caller() {
     counted_from_ = lines_.number();
     source_ = frame.source;
     called_at_ = frame.called_at;
-    repeats_.resize(frame.repeats);
+    repeats_.leave_call();
     frames_.pop_back();
 }
 
@@ -231,7 +185,7 @@ bool ProgramFlow::call_program(const OWordLocation& location, Interpreter& inter
     const Block& block = interpreter.block();
     const auto times = block.has('L') ? static_cast<std::int64_t>(block['L']) : 1;
     const std::string label = fmt::format("{:.0f}", block['P']);
-    Target target{};
+    SubTarget target{};
     if (!find_sub(location, label, true, target)) return false;
     if (times == 0) return true;
     if (!interpreter.parameters().enter()) return fail(location, location.column, too_deep(asks_for(label, true)));
@@ -256,7 +210,7 @@ bool ProgramFlow::leave_program(const OWordLocation& location, Interpreter& inte
         back_to_caller();
         return good;
     }
-    repeats_.resize(frame.repeats);
+    repeats_.end_all();
     (void)interpreter.parameters().enter();
     jump(place_at(frame.program));
     return good;
@@ -264,11 +218,11 @@ bool ProgramFlow::leave_program(const OWordLocation& location, Interpreter& inte
 
 /// Handles the end of a text; reports a numbered program without M99.
 bool ProgramFlow::text_ended() {
-    if (frames_.empty() || frames_.back().program == no_location || !faults_.empty()) return false;
+    if (frames_.empty() || frames_.back().program == no_location || has_faults()) return false;
     over_ = true;
     const OWordLocation& begin = place_at(frames_.back().program);
     fail(begin, begin.column, "the text ends in this numbered program, which M98 has called; end it with M99");
-    faults_.push_back(problem_);
+    texts_.add_fault(problem_);
     return false;
 }
 
