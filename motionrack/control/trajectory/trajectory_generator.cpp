@@ -16,8 +16,6 @@ constexpr double margin = 0.15;
 constexpr double max_wait = 0.008;
 /// Passed segments are removed in batches of this size.
 constexpr std::size_t min_drop = 1'024;
-/// Segments carry a move number modulo this instead of a line.
-constexpr std::int64_t tags = std::int64_t{1} << 30;
 
 double max_axis_velocity(const CubicSegment& piece, const MachineLimits& limits) {
     const Point middle = tangent_on(piece, 0.5 * piece.length), end = tangent_on(piece, piece.length);
@@ -27,16 +25,6 @@ double max_axis_velocity(const CubicSegment& piece, const MachineLimits& limits)
 
 }  // namespace
 
-void TrajectoryGenerator::KnownSection::clear() {
-    curve.clear();
-    programmed.clear();
-    use.clear();
-    feed.clear();
-    planned_to = 0;
-    whole = false;
-    rest = {};
-}
-
 TrajectoryGenerator::TrajectoryGenerator(const MachineLimits& limits, const Point& start,
                                          TrajectoryGeneratorSettings settings)
     : limits_(limits), settings_(settings), builder_(limits, start), planner_(limits) {}
@@ -45,8 +33,7 @@ TrajectoryGenerator::TrajectoryGenerator(const MachineLimits& limits, const Poin
 
 void TrajectoryGenerator::push(const TrajectoryMove& move) {
     Move tagged = move.move;
-    tagged.line = static_cast<std::int32_t>(pushed_++ % tags);
-    moves_.push_back(move);
+    tagged.line = moves_.push(move);
     reserve();
     builder_.push(tagged);
     fetch_segments(settings_.window);
@@ -54,7 +41,7 @@ void TrajectoryGenerator::push(const TrajectoryMove& move) {
 
 void TrajectoryGenerator::flush() {
     reserve();
-    flushed_ = pushed_;
+    moves_.flush();
     builder_.flush();
     fetch_segments(settings_.window);
 }
@@ -64,15 +51,11 @@ void TrajectoryGenerator::reserve() {
     if (!builder_.has_room()) fetch_segments(std::numeric_limits<std::size_t>::max());
 }
 
-std::int64_t TrajectoryGenerator::move_of(std::int32_t tag) const {
-    return first_move_ + (tag - first_move_ % tags + tags) % tags;
-}
-
 std::int64_t TrajectoryGenerator::first_pending_move() const {
-    if (left_ > 0 || position_ < now_.known()) return move_of(now_.curve[piece_].line);
+    if (left_ > 0 || position_ < now_.known()) return moves_.number_of(now_.curve[piece_].line);
     if (now_.whole && dwell_seconds() > 0) return move_of_rest();
-    if (now_.whole && !then_.curve.empty()) return move_of(then_.curve.front().line);
-    return pushed_ == flushed_ ? pushed_ : std::max(flushed_, reported_);
+    if (now_.whole && !then_.curve.empty()) return moves_.number_of(then_.curve.front().line);
+    return moves_.first_in_builder();
 }
 
 void TrajectoryGenerator::fetch_segments(std::size_t max_segments) {
@@ -81,27 +64,23 @@ void TrajectoryGenerator::fetch_segments(std::size_t max_segments) {
         if (part.whole || part.curve.size() - (now_.whole ? 0 : piece_) >= max_segments) return;
         PathElement item;
         if (!builder_.pull(item)) return;
-        reported_ = move_of(item.rest ? item.line : item.piece.line);
+        moves_.report(item.rest ? item.line : item.piece.line);
         if (item.rest) {
             part.whole = true;
             part.rest = item;
         } else {
-            for_each_subsegment(item.piece, limits_, [&](const CubicSegment& one) { append(part, one); });
+            for_each_subsegment(item.piece, limits_, [&](const CubicSegment& one) {
+                part.append(one);
+                set_feed(part, part.curve.size() - 1);
+            });
         }
     }
-}
-
-void TrajectoryGenerator::append(KnownSection& part, const CubicSegment& piece) {
-    part.curve.push_back(piece);
-    part.programmed.push_back(piece.feed);
-    part.use.emplace_back();
-    set_feed(part, part.curve.size() - 1);
 }
 
 /// Returns the feed rate of a segment with the overrides.
 double TrajectoryGenerator::feed_of(const KnownSection& part, std::size_t i) const {
     const double programmed = part.programmed[i];
-    if (!moves_[static_cast<std::size_t>(move_of(part.curve[i].line) - first_move_)].overridable) return programmed;
+    if (!moves_.move(moves_.number_of(part.curve[i].line)).overridable) return programmed;
     if (programmed < std::numeric_limits<double>::infinity()) return programmed * feed_override_;
     return rapid_override_ < 1 ? rapid_override_ * max_axis_velocity(part.curve[i], limits_) : programmed;
 }
@@ -121,15 +100,11 @@ void TrajectoryGenerator::drop_passed() {
     drop(now_.programmed);
     drop(now_.use);
     piece_ = 0;
-    forget_moves_before(move_of(now_.curve.front().line));
-}
-
-void TrajectoryGenerator::forget_moves_before(std::int64_t number) {
-    for (; first_move_ < number; ++first_move_) moves_.pop_front();
+    moves_.forget_before(moves_.number_of(now_.curve.front().line));
 }
 
 void TrajectoryGenerator::advance_section() {
-    forget_moves_before(move_of(now_.rest.line));
+    moves_.forget_before(move_of_rest());
     std::swap(now_, then_);
     then_.clear();
     piece_ = feed_ = 0;
@@ -161,7 +136,7 @@ NextMotion TrajectoryGenerator::next(bool early) {
         }
         if (held_) return NextMotion::nothing;
         if (position_ < now_.known()) {
-            if (!is_ready(now_, piece_, early)) return NextMotion::nothing;
+            if (!early && !now_.is_ready(piece_, settings_.window)) return NextMotion::nothing;
             begin();
             continue;
         }
@@ -171,13 +146,9 @@ NextMotion TrajectoryGenerator::next(bool early) {
     }
 }
 
-bool TrajectoryGenerator::is_ready(const KnownSection& part, std::size_t from, bool early) const {
-    return part.whole || early || part.curve.size() - from >= settings_.window;
-}
-
 /// Starts from standstill, anywhere on the section.
 void TrajectoryGenerator::begin() {
-    piece_ = piece_at(position_, piece_);
+    piece_ = now_.piece_at(position_, piece_);
     drop_passed();
     holding_ = new_feeds_ = false;
     for (std::size_t i = piece_; i < now_.curve.size(); ++i) set_feed(now_, i);
@@ -209,7 +180,8 @@ void TrajectoryGenerator::update_plan(bool early) {
 /// Plans an overlap: the next section may start before this one ends.
 void TrajectoryGenerator::plan_overlap(bool early) {
     if (met_ || held_ || !now_.whole || now_.planned_to < now_.known() || left_ > braking_ + margin) return;
-    if (then_.curve.empty() || now_.rest.seconds > 0 || !is_ready(then_, 0, early)) return;
+    if (then_.curve.empty() || now_.rest.seconds > 0) return;
+    if (!early && !then_.is_ready(0, settings_.window)) return;
     met_ = true;
     if (!planner_.plan({}, then_.curve, then_.use, 0, then_.known())) return;
     then_.feed.assign(planner_.feed().begin(), planner_.feed().end());
@@ -233,14 +205,8 @@ TrajectoryGenerator::PlanCursor TrajectoryGenerator::spot_at(double seconds) con
         out.on_feed -= now_.feed[out.feed++].seconds;
     out.along = now_.feed[out.feed].at(std::clamp(out.on_feed, 0.0, now_.feed[out.feed].seconds));
     if (seconds >= left_) out.along = {now_.planned_to, 0, out.along.accel, out.along.jerk};
-    out.piece = piece_at(out.along.u, out.piece);
+    out.piece = now_.piece_at(out.along.u, out.piece);
     return out;
-}
-
-/// At a boundary, returns the following segment, so that some of it remains.
-std::size_t TrajectoryGenerator::piece_at(double position, std::size_t piece) const {
-    while (piece + 1 < now_.curve.size() && position >= now_.curve[piece].begin + now_.curve[piece].length) ++piece;
-    return piece;
 }
 
 TrajectoryPoint TrajectoryGenerator::at(double seconds) const {

@@ -10,23 +10,16 @@
 // feasible plan exists, keeps the current plan and retries a little later.
 #pragma once
 
-#include <deque>
 #include <motionrack/control/limits.hpp>
-#include <motionrack/control/move.hpp>
 #include <motionrack/control/path/path_builder.hpp>
+#include <motionrack/control/trajectory/known_section.hpp>
+#include <motionrack/control/trajectory/pending_moves.hpp>
 #include <motionrack/control/trajectory/section_planner.hpp>
 #include <motionrack/control/trajectory/trajectory_point.hpp>
 #include <optional>
 #include <vector>
 
 namespace motionrack::control {
-
-/// A move with data for the caller.
-struct TrajectoryMove {
-    Move move;
-    bool overridable = true;  ///< false: ignores the feed override
-    std::uint8_t axes = 0;    ///< axes that move, one bit each
-};
 
 struct TrajectoryGeneratorSettings {
     std::size_t window =
@@ -84,31 +77,17 @@ class TrajectoryGenerator {
 
     // ---- moves
     /// Returns the number of pushed moves.
-    std::int64_t pushed() const { return pushed_; }
+    std::int64_t pushed() const { return moves_.pushed(); }
     /// Returns the number of the move of this point, in the order of push from 0; of merged moves, the first.
-    std::int64_t move_of(const TrajectoryPoint& state) const { return move_of(state.line); }
+    std::int64_t move_of(const TrajectoryPoint& state) const { return moves_.number_of(state.line); }
     /// Returns the first move that is not fully executed; pushed() if all are.
     std::int64_t first_pending_move() const;
     /// Returns the move of the dwell.
-    std::int64_t move_of_rest() const { return move_of(now_.rest.line); }
+    std::int64_t move_of_rest() const { return moves_.number_of(now_.rest.line); }
     /// Returns a pending move as it was pushed.
-    const TrajectoryMove& move(std::int64_t number) const {
-        return moves_[static_cast<std::size_t>(number - first_move_)];
-    }
+    const TrajectoryMove& move(std::int64_t number) const { return moves_.move(number); }
 
   private:
-    /// A path section from standstill to standstill, or its known part: one row per segment in each vector.
-    struct KnownSection {
-        std::vector<CubicSegment> curve;
-        std::vector<double> programmed;  ///< feed rates without overrides
-        std::vector<SegmentTuning> use;
-        std::vector<ProfileSegment> feed;  ///< the plan
-        double planned_to = 0;             ///< u of the end of the plan
-        bool whole = false;                ///< the stop that ends the section is known
-        PathElement rest;
-        double known() const { return curve.empty() ? 0 : curve.back().begin + curve.back().length; }
-        void clear();
-    };
     /// A position in now_ and the motion there.
     struct PlanCursor {
         std::size_t feed = 0, piece = 0;
@@ -116,15 +95,11 @@ class TrajectoryGenerator {
         PathMotion along;
     };
 
-    std::int64_t move_of(std::int32_t tag) const;
     void fetch_segments(std::size_t max_segments);
     void reserve();
-    void append(KnownSection& part, const CubicSegment& piece);
     double feed_of(const KnownSection& part, std::size_t i) const;
     void set_feed(KnownSection& part, std::size_t i, double at_least = 0) const;
-    bool is_ready(const KnownSection& part, std::size_t from, bool early) const;
     void drop_passed();
-    void forget_moves_before(std::int64_t number);
     void advance_section();
     void begin();
     void update_plan(bool early);
@@ -132,7 +107,6 @@ class TrajectoryGenerator {
     bool slow_down();
     bool apply_overrides();
     bool plan_to_end(std::size_t piece, const PathMotion& along);
-    SegmentTuning use_for_stop(std::size_t piece, std::size_t& k, double planned, double above) const;
     std::optional<double> find_stop(const PlanCursor& from, double above);
     KnownSection with_feeds(const PlanCursor& from, std::span<const ProfileSegment> stop) const;
     void take(const PlanCursor& from, double seconds, double to);
@@ -140,7 +114,6 @@ class TrajectoryGenerator {
     void plan_overlap(bool early);
     void cancel_overlap();
     PlanCursor spot_at(double seconds) const;
-    std::size_t piece_at(double position, std::size_t piece) const;
 
     MachineLimits limits_;
     TrajectoryGeneratorSettings settings_;
@@ -165,10 +138,7 @@ class TrajectoryGenerator {
 
     std::vector<CubicSegment> stop_curve_;
     std::vector<SegmentTuning> stop_use_;
-    std::deque<TrajectoryMove> moves_;
-    std::int64_t pushed_ = 0, first_move_ = 0;  ///< first_move_: number of the first of moves_
-    std::int64_t flushed_ = 0;                  ///< all moves before this one are known to their end
-    std::int64_t reported_ = 0;                 ///< move of the last element that the builder has returned
+    PendingMoves moves_;
 };
 
 }  // namespace motionrack::control

@@ -109,19 +109,6 @@ bool TrajectoryGenerator::slow_down() {
     return true;
 }
 
-/// Returns the tuning of a segment for a stop on it, driven as fast as planned or as `planned`, times `above`. `k`: the
-/// first profile segment to inspect, then the first one that reaches it.
-SegmentTuning TrajectoryGenerator::use_for_stop(std::size_t piece, std::size_t& k, double planned, double above) const {
-    const CubicSegment& on = now_.curve[piece];
-    SegmentTuning use = now_.use[piece];
-    if (is_straight(on)) return use;
-    while (k + 1 < now_.feed.size() && now_.feed[k + 1].begin <= on.begin) ++k;
-    for (std::size_t i = k; i < now_.feed.size() && now_.feed[i].begin < on.begin + on.length; ++i)
-        planned = std::max({planned, now_.feed[i].at(0).velocity, now_.feed[i].last().velocity});
-    use.velocity = std::min(use.velocity, above * planned);
-    return use;
-}
-
 /// Finds the nearest possible stop; the plan to it is the planner's last one. `above`: velocity limit on curves,
 /// relative to the current plan.
 std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from, double above) {
@@ -136,7 +123,7 @@ std::optional<double> TrajectoryGenerator::find_stop(const PlanCursor& from, dou
     const auto add_piece = [&](std::size_t i) {
         stop_curve_.push_back(now_.curve[i]);
         stop_curve_.back().feed = std::max(now_.curve[i].feed, std::min(eases_from, now_.programmed[i]));
-        use.push_back(use_for_stop(i, k, eases_from > 0 ? from.along.velocity : 0, above));
+        use.push_back(now_.use_for_stop(i, k, eases_from > 0 ? from.along.velocity : 0, above));
     };
     const auto plan_to = [&](double distance) {
         std::size_t last = from.piece;
@@ -200,8 +187,7 @@ bool TrajectoryGenerator::apply_overrides() {
 /// Returns the known path from a point on, with the current feed rates. Divides the segments on the way of a stop,
 /// stretched by ease_, where its velocity changes. Each may have the velocity there; up to the fastest point, the
 /// maximum.
-TrajectoryGenerator::KnownSection TrajectoryGenerator::with_feeds(const PlanCursor& from,
-                                                                  std::span<const ProfileSegment> stop) const {
+KnownSection TrajectoryGenerator::with_feeds(const PlanCursor& from, std::span<const ProfileSegment> stop) const {
     KnownSection out;
     double at = from.along.u;
     std::size_t i = from.piece;
