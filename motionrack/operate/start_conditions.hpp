@@ -9,6 +9,7 @@
 #include <motionrack/rack/rack.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace motionrack::operate {
 
