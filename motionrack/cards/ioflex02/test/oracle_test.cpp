@@ -1,16 +1,24 @@
 // Random programs of register accesses and wire changes give the same result on the event-driven card and its slow
 // twin.
 //
-// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment select other and more programs.
+// tests/oracle/harness.hpp names the variables of the environment that select other and more programs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <iostream>
 #include <motionrack/cards/ioflex02/test/rig.hpp>
 #include <motionrack/cards/ioflex02/test/twin.hpp>
 #include <random>
+#include <tests/oracle/harness.hpp>
 
 namespace motionrack::ioflex02 {
+
+namespace twin {
+/// For messages of failed tests.
+void PrintTo(const Note& note, std::ostream* out) {
+    *out << "{" << note.code << ", " << note.a << ", " << note.b << "}";
+}
+}  // namespace twin
+
 namespace {
 
 constexpr Duration half = nanoseconds(50);
@@ -21,11 +29,23 @@ struct Op {
     int a = 0, b = 0, c = 0;
 };
 
+void PrintTo(const Op& op, std::ostream* out) {
+    constexpr const char* kinds[] = {"wire", "input", "write", "read", "poll"};
+    *out << fmt::format("half {} {} {} {} {}", op.at, kinds[op.kind], op.a, op.b, op.c);
+}
+
 struct Program {
     bool preloaded = false;
     std::int64_t configuration_halves = 0;
     std::vector<Op> ops;
+    std::size_t snapshot_at = oracle::never;
 };
+
+std::string text_of(const Program& program) {
+    return fmt::format("{}, configured in {} halves, saved at {}\n", program.preloaded ? "preloaded" : "empty",
+                       program.configuration_halves, program.snapshot_at) +
+           oracle::text_of_steps(program.ops);
+}
 
 class Maker {
   public:
@@ -146,7 +166,7 @@ Outcome on_twin(const Program& program) {
     return out;
 }
 
-Outcome on_card(const Program& program, std::size_t snapshot_at) {
+Outcome on_card(const Program& program) {
     sim::Kernel kernel;
     Settings settings;
     settings.serial = 7;
@@ -157,8 +177,7 @@ Outcome on_card(const Program& program, std::size_t snapshot_at) {
     Outcome out;
     const auto read = [&](int at) {
         const int peeked = card.peek(static_cast<std::uint32_t>(at)), value = card.read(static_cast<std::uint32_t>(at));
-        EXPECT_EQ(peeked, value);
-        return value;
+        return peeked == value ? value : -1;  // no word
     };
     const auto write = [&](int at, int value) {
         card.write(static_cast<std::uint32_t>(at), static_cast<std::uint16_t>(value));
@@ -173,12 +192,11 @@ Outcome on_card(const Program& program, std::size_t snapshot_at) {
         // In two runs, divided anywhere: this must have no effect.
         kernel.run_until(std::max(kernel.now(), half * (op.at - static_cast<std::int64_t>(i % 3))));
         kernel.run_until(half * op.at);
-        if (i == snapshot_at) {
-            const sim::Snapshot saved = kernel.snapshot();
-            write(0x00, 1);
-            kernel.run_until(kernel.now() + microseconds(5));
-            kernel.restore(saved);
-        }
+        if (i == program.snapshot_at)
+            oracle::disturb_and_restore(kernel, [&] {
+                write(0x00, 1);
+                kernel.run_until(kernel.now() + microseconds(5));
+            });
         if (op.kind == Op::wire)
             wire(std::string{"abz"[op.b % 3]}.replace(0, op.b == 3, op.b == 3 ? "cal" : "") + std::to_string(op.a),
                  op.c);
@@ -194,41 +212,33 @@ Outcome on_card(const Program& program, std::size_t snapshot_at) {
     return out;
 }
 
-void compare(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
-    const std::uint64_t seed = seed_from_environment(20'261'121) + first;
-    std::cout << "seed " << seed << ", " << programs << " programs" << std::endl;
-    std::size_t ops = 0, words = 0, notes = 0;
-    for (std::uint64_t number = 0; number < programs; ++number) {
-        const Program program = Maker(seed + number).make();
-        Outcome twin = on_twin(program),
-                card = on_card(program, with_snapshot ? number % program.ops.size() : program.ops.size());
-        ASSERT_EQ(twin.words, card.words) << "program " << number << " of seed " << seed;
-        // An illegal transition is reported when it is processed, so only the order may differ.
-        std::sort(twin.notes.begin(), twin.notes.end());
-        std::sort(card.notes.begin(), card.notes.end());
-        ASSERT_EQ(twin.notes, card.notes) << "program " << number << " of seed " << seed;
-        ops += program.ops.size();
-        words += twin.words.size();
-        notes += twin.notes.size();
-    }
-    std::cout << ops << " accesses and wire changes, " << words << " words read, " << notes << " conditions"
-              << std::endl;
+void run_both(const Program& program, oracle::Comparison& both) {
+    Outcome twin = on_twin(program), card = on_card(program);
+    both.same_elements("word", twin.words, card.words);
+    // An illegal transition is reported when it is processed, so only the order may differ.
+    std::sort(twin.notes.begin(), twin.notes.end());
+    std::sort(card.notes.begin(), card.notes.end());
+    both.same_elements("condition", twin.notes, card.notes);
+    both.count("accesses and wire changes", program.ops.size());
+    both.count("words read", twin.words.size());
+    both.count("conditions", twin.notes.size());
 }
 
+constexpr std::uint64_t usual_seed = 20'261'121;
+
 TEST(Ioflex02Oracle, RandomProgramsGiveTheSameReadingsOnTheCardAndItsTwin) {
-    compare(0, cases("MOTIONRACK_PROGRAMS", 3000), false);
+    oracle::compare({0, oracle::programs(3000), usual_seed},
+                    [](std::uint64_t seed, std::uint64_t number) { return Maker(seed + number).make(); });
 }
 
 TEST(Ioflex02Oracle, ARestoredSnapshotContinuesIdentically) {
-    compare(1'000'000, 300, true);
+    constexpr std::uint64_t first = 1'000'000;
+    oracle::compare({first, 300, usual_seed}, [](std::uint64_t seed, std::uint64_t number) {
+        Program program = Maker(seed + number).make();
+        program.snapshot_at = (number - first) % program.ops.size();
+        return program;
+    });
 }
 
 }  // namespace
-
-namespace twin {
-/// For messages of failed tests.
-void PrintTo(const Note& note, std::ostream* out) {
-    *out << "{" << note.code << ", " << note.a << ", " << note.b << "}";
-}
-}  // namespace twin
 }  // namespace motionrack::ioflex02
