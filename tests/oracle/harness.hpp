@@ -88,10 +88,7 @@ void disturb_and_restore(Kernel& kernel, const Disturb& disturb, Recorded&... re
 }
 
 template <class Program>
-requires requires(Program& program) {
-    program.ops;
-}
-auto steps_of(Program& program) {
+auto steps_of(Program& program) -> decltype(std::tie(program.ops)) {
     return std::tie(program.ops);
 }
 
@@ -105,9 +102,7 @@ Comparison comparison_of(const Program& program) {
 /// Leaves out steps of the vector number `part` while `fails(program)`.
 template <std::size_t part, class Program, class Fails>
 void shrink_part(Program& program, const Fails& fails, int max_tries) {
-    const auto steps = [](Program & of) -> auto& {
-        return std::get<part>(steps_of(of));
-    };
+    const auto steps = [](Program& of) -> decltype(auto) { return std::get<part>(steps_of(of)); };
     for (std::size_t piece = std::max<std::size_t>(steps(program).size() / 2, 1); max_tries > 0;) {
         bool dropped = false;
         for (std::size_t at = 0; at < steps(program).size() && max_tries > 0; --max_tries) {

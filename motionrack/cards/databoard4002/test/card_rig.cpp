@@ -3,6 +3,7 @@
 #include <motionrack/cards/databoard4002/model/card.hpp>
 #include <motionrack/cards/databoard4002/test/program.hpp>
 #include <motionrack/sim/test/fake_pulses.hpp>
+#include <utility>
 
 namespace motionrack::databoard4002::twin {
 
@@ -29,13 +30,7 @@ class Follower final : public sim::Device {
   public:
     explicit Follower(sim::Kernel& kernel) : id(kernel.add(*this, sim::Phase::observers, "follower")) {}
     void on_scheduled(Instant) override {}
-    void on_wire(int, int level, Instant now) override {
-        if (level && now == last) ++doubled;
-        last = now;
-    }
     sim::DeviceId id;
-    Instant last{-1};
-    int doubled = 0;
 };
 
 struct World final : sim::Kernel::WireObserver {
@@ -57,6 +52,12 @@ struct World final : sim::Kernel::WireObserver {
     void run(Instant until) {
         while (kernel.run_until(until) == sim::RunEnd::broken) {
         }
+    }
+    void disturb() {
+        card.out(ports::C3, 0);
+        run(kernel.now() + milliseconds(3));
+        card.out(ports::C2, 'O');
+        run(kernel.now() + milliseconds(3));
     }
     Sight apply(const Op& op) {
         Sight sight;
@@ -95,34 +96,27 @@ struct World final : sim::Kernel::WireObserver {
     Follower follower;
     sim::WireId inputs[7];
     std::vector<sim::WireId> outputs;
-    std::vector<Change> raw;
+    std::vector<oracle::Change> raw;
 };
 
 }  // namespace
 
-Outcome run_on_card(const Program& program, const Way& way) {
+Outcome run_on_card(const Program& program) {
     World world(program);
     Outcome out;
-    if (!way.follow_fout) world.kernel.subscribe(world.kernel.find_wire("c.fout"), world.follower.id, false);
+    if (!program.follow_fout) world.kernel.subscribe(world.kernel.find_wire("c.fout"), world.follower.id, false);
     world.run(Instant{0});
-    if (way.follow_fout) world.kernel.subscribe(world.kernel.find_wire("c.fout"), world.follower.id, true);
+    if (program.follow_fout) world.kernel.subscribe(world.kernel.find_wire("c.fout"), world.follower.id, true);
     for (std::size_t i = 0; i < program.ops.size(); ++i) {
         world.run(slice_time * program.ops[i].slice);
         out.sights.push_back(world.apply(program.ops[i]));
-        if (way.snapshot_at == 0 || i != way.snapshot_at) continue;
-        const sim::Snapshot saved = world.kernel.snapshot();
-        const std::size_t seen = world.raw.size();
-        world.card.out(ports::C3, 0);
-        world.run(world.kernel.now() + milliseconds(3));
-        world.card.out(ports::C2, 'O');
-        world.run(world.kernel.now() + milliseconds(3));
-        world.kernel.restore(saved);
-        world.raw.resize(seen);
+        if (i == program.snapshot_at)
+            oracle::disturb_and_restore(
+                world.kernel, [&] { world.disturb(); }, world.raw);
     }
-    out.changes = settled(world.raw);
+    out.changes = oracle::settled(std::move(world.raw), first_outputs());
     for (const sim::Condition& c : world.kernel.conditions())
         out.notes.push_back({c.at / slice_time, c.code, c.a, c.b});
-    out.events = world.kernel.events();
     return out;
 }
 

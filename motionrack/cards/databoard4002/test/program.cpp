@@ -1,8 +1,9 @@
 // Generation of random programs, and their execution on the twin.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstdlib>
 #include <motionrack/cards/databoard4002/test/program.hpp>
+#include <ostream>
 #include <random>
 #include <utility>
 
@@ -13,8 +14,6 @@ namespace {
 class Maker {
   public:
     Maker(std::uint64_t seed, std::uint64_t number) : random_(seed * 1'000'003 + number) {
-        program_.seed = seed;
-        program_.number = number;
         Strapping& s = program_.strapping;
         s.firmware_pass_ticks = pick({1, 1, 1, 2, 7, 40});
         s.byte_slices = pick({5, 20, 20, 200});
@@ -183,7 +182,7 @@ class Maker {
     int last_pin_ = 0;
 };
 
-void note_outputs(const Twin& twin, std::array<int, out_count>& last, std::vector<Change>& changes) {
+void note_outputs(const Twin& twin, std::array<int, out_count>& last, std::vector<oracle::Change>& changes) {
     const auto now = twin.outputs();
     for (int i = 0; i < out_count; ++i) {
         if (now[i] == last[i]) continue;
@@ -193,21 +192,6 @@ void note_outputs(const Twin& twin, std::array<int, out_count>& last, std::vecto
 }
 
 }  // namespace
-
-std::vector<Change> settled(std::vector<Change> raw) {
-    std::stable_sort(raw.begin(), raw.end(), [](const Change& a, const Change& b) {
-        return a.slice != b.slice ? a.slice < b.slice : a.wire < b.wire;
-    });
-    std::vector<Change> out;
-    std::array<int, out_count> last = {0, 1, 0, 0, 0};
-    for (std::size_t i = 0; i < raw.size(); ++i) {
-        if (i + 1 < raw.size() && raw[i + 1].slice == raw[i].slice && raw[i + 1].wire == raw[i].wire) continue;
-        if (last[raw[i].wire] == raw[i].level) continue;
-        last[raw[i].wire] = raw[i].level;
-        out.push_back(raw[i]);
-    }
-    return out;
-}
 
 Program make_program(std::uint64_t seed, std::uint64_t number) {
     return Maker(seed, number).make();
@@ -250,39 +234,42 @@ Outcome run_on_twin(const Program& program) {
         out.sights.push_back(sight);
         note_outputs(twin, last, out.changes);
     }
-    out.changes = settled(std::move(out.changes));
+    out.changes = oracle::settled(std::move(out.changes), first_outputs());
     out.notes = twin.notes();
     return out;
 }
 
-std::string difference(const Program& program, const Outcome& twin, const Outcome& card) {
-    for (std::size_t i = 0; i < twin.sights.size(); ++i) {
-        const Sight &a = twin.sights[i], &b = card.sights[i];
-        if (a == b) continue;
-        const Op& op = program.ops[i];
-        return fmt::format(
-            "after op {} (kind {}, {} {}) at slice {}: twin value {:02X} status {:02X} latch {:02X} position {} pulses "
-            "{}, "
-            "card {:02X} {:02X} {:02X} {} {}\n",
-            i, static_cast<int>(op.kind), op.a, op.b, op.slice, a.value, a.status, a.latch, a.position, a.pulses,
-            b.value, b.status, b.latch, b.position, b.pulses);
-    }
-    for (std::size_t i = 0; i < twin.changes.size() || i < card.changes.size(); ++i) {
-        const Change a = i < twin.changes.size() ? twin.changes[i] : Change{-1, 0, 0};
-        const Change b = i < card.changes.size() ? card.changes[i] : Change{-1, 0, 0};
-        if (!(a == b))
-            return fmt::format(
-                "change {} of the outputs: twin wire {} = {} at slice {}, card wire {} = {} at slice {}\n", i, a.wire,
-                a.level, a.slice, b.wire, b.level, b.slice);
-    }
-    for (std::size_t i = 0; i < twin.notes.size() || i < card.notes.size(); ++i) {
-        const Note a = i < twin.notes.size() ? twin.notes[i] : Note{-1, 0, 0, 0};
-        const Note b = i < card.notes.size() ? card.notes[i] : Note{-1, 0, 0, 0};
-        if (!(a == b))
-            return fmt::format("condition {}: twin {} ({}, {}) at slice {}, card {} ({}, {}) at slice {}\n", i, a.code,
-                               a.a, a.b, a.slice, b.code, b.a, b.b, b.slice);
-    }
-    return {};
+void run_both(const Program& program, oracle::Comparison& both) {
+    const Outcome twin = run_on_twin(program), card = run_on_card(program);
+    both.same_elements("after op", twin.sights, card.sights);
+    both.same_elements("change of the outputs", twin.changes, card.changes);
+    both.same_elements("condition", twin.notes, card.notes);
+    both.count("accesses and wire changes", program.ops.size());
+    both.count("ms", program.ops.back().slice / 2'000);
+    both.count("changes of outputs", twin.changes.size());
+    both.count("conditions", twin.notes.size());
+    both.count("pulses net", std::llabs(twin.sights.back().pulses));
+}
+
+std::string text_of(const Program& program) {
+    const Strapping& s = program.strapping;
+    return fmt::format("source {}, pass {} ticks, byte {} slices, folding {} from {}{}{}, saved after op {}\n",
+                       static_cast<int>(s.source), s.firmware_pass_ticks, s.byte_slices, s.folding, s.first_pair,
+                       s.up_down ? ", up/down" : "", program.follow_fout ? ", fout followed" : "",
+                       program.snapshot_at) +
+           oracle::text_of_steps(program.ops);
+}
+
+void PrintTo(const Op& op, std::ostream* out) {
+    constexpr const char* kinds[] = {"out", "in", "wire", "law", "hang", "broken"};
+    *out << fmt::format("slice {} {} {} {}", op.slice, kinds[op.kind], op.a, op.b);
+}
+void PrintTo(const Sight& s, std::ostream* out) {
+    *out << fmt::format("value {:02X} status {:02X} latch {:02X} position {} pulses {}", s.value, s.status, s.latch,
+                        s.position, s.pulses);
+}
+void PrintTo(const Note& note, std::ostream* out) {
+    *out << fmt::format("{} ({}, {}) at slice {}", note.code, note.a, note.b, note.slice);
 }
 
 }  // namespace motionrack::databoard4002::twin

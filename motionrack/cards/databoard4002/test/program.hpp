@@ -3,8 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <iosfwd>
 #include <motionrack/cards/databoard4002/test/twin.hpp>
 #include <string>
+#include <tests/oracle/changes.hpp>
+#include <tests/oracle/harness.hpp>
 #include <vector>
 
 namespace motionrack::databoard4002::twin {
@@ -17,9 +20,10 @@ struct Op {
 };
 
 struct Program {
-    std::uint64_t seed = 0, number = 0;
     Strapping strapping;
     std::vector<Op> ops;
+    bool follow_fout = false;                 ///< a listener follows the card's wire fout, without effect
+    std::size_t snapshot_at = oracle::never;  ///< after this op the card is saved, disturbed and restored
 };
 
 /// State right after an op.
@@ -29,35 +33,25 @@ struct Sight {
     friend bool operator==(const Sight&, const Sight&) = default;
 };
 
-/// A change of an output: wire and level; only the last one at an instant.
-struct Change {
-    std::int64_t slice = 0;
-    int wire = 0;
-    int level = 0;
-    friend bool operator==(const Change&, const Change&) = default;
-};
-
 struct Outcome {
     std::vector<Sight> sights;
-    std::vector<Change> changes;
+    std::vector<oracle::Change> changes;  ///< of outputs, as they were at the end of an instant
     std::vector<Note> notes;
-    std::uint64_t events = 0;  ///< events of the kernel
 };
 
-/// The last level of each wire at each instant of a change; by instant, then wire.
-std::vector<Change> settled(std::vector<Change> raw);
+/// The levels of the outputs at first.
+inline std::vector<std::int64_t> first_outputs() {
+    return {0, 1, 0, 0, 0};
+}
 
 Program make_program(std::uint64_t seed, std::uint64_t number);
 Outcome run_on_twin(const Program& program);
+Outcome run_on_card(const Program& program);
+void run_both(const Program& program, oracle::Comparison& both);
 
-/// Run modes of the card; all must give the same outcome.
-struct Way {
-    bool follow_fout = false;     ///< a listener follows the wire fout
-    std::size_t snapshot_at = 0;  ///< after this op the state is saved, disturbed and restored; 0: never
-};
-Outcome run_on_card(const Program& program, const Way& way);
-
-/// The first difference as text, "" if there is none.
-std::string difference(const Program& program, const Outcome& twin, const Outcome& card);
+std::string text_of(const Program& program);
+void PrintTo(const Op& op, std::ostream* out);
+void PrintTo(const Sight& sight, std::ostream* out);
+void PrintTo(const Note& note, std::ostream* out);
 
 }  // namespace motionrack::databoard4002::twin
