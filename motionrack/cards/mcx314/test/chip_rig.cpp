@@ -110,7 +110,8 @@ class Watcher final : public sim::PositionListener {
 // A kernel with one chip, its wires and, optionally, an edge listener.
 class Bench {
   public:
-    Bench(const Program& program, const Way& way) : program_(program), way_(way), random_(way.slices) {
+    explicit Bench(const Program& program) : program_(program), random_(program.way.slices) {
+        const Way& way = program.way;
         static constexpr const char* pins[] = {"in0",  "in1",   "in2",   "in3",  "expp",
                                                "expm", "inpos", "alarm", "lmtp", "lmtm"};
         for (int a = 0; a < axis_count; ++a)
@@ -145,7 +146,7 @@ class Bench {
             const Op& op = program_.ops[i];
             const bool more = i + 1 < program_.ops.size() && program_.ops[i + 1].order() == op.order();
             out_.sights.push_back(op.is_wire() ? move_wire(op, more) : access(op));
-            if (i + 1 >= way_.snapshot_at && way_.snapshot_at != 0 && !disturbed_ && hand_.idle()) disturb(op);
+            if (i >= program_.snapshot_at && !disturbed_ && hand_.idle()) disturb(op);
         }
         sort_pulses(out_.pulses);
         sort_changes(out_.changes);
@@ -162,7 +163,7 @@ class Bench {
     }
 
     void run_to(Instant until) {
-        while (way_.slices != 0 && random_.one_in(2)) {
+        while (program_.way.slices != 0 && random_.one_in(2)) {
             const std::int64_t left = (until - kernel_.now()).count();
             if (left <= 1) break;
             run_on(kernel_.now() + Duration{random_.between(0, left)});
@@ -219,23 +220,20 @@ class Bench {
         return peeked == value ? value : static_cast<std::uint16_t>(~value);
     }
 
-    // Saves the state, runs other operations in it, and restores it.
     void disturb(const Op& op) {
         disturbed_ = true;
-        const sim::Snapshot snapshot = kernel_.snapshot();
-        const std::size_t pulses = out_.pulses.size(), requests = requests_.list.size(), changes = out_.changes.size();
-        chip_.write(14, 0), chip_.write(12, 100), chip_.write(0, 0x0F06), chip_.write(0, 0x0F20);
-        run_on(kernel_.now() + 5000 * one_tick);
-        chip_.write(0, 0x0F27);
-        run_on(kernel_.now() + one_tick * (1 + op.tick % 700));
-        kernel_.restore(snapshot);
-        out_.pulses.resize(pulses);
-        out_.changes.resize(changes);
-        requests_.list.resize(requests);
+        oracle::disturb_and_restore(
+            kernel_,
+            [&] {
+                chip_.write(14, 0), chip_.write(12, 100), chip_.write(0, 0x0F06), chip_.write(0, 0x0F20);
+                run_on(kernel_.now() + 5000 * one_tick);
+                chip_.write(0, 0x0F27);
+                run_on(kernel_.now() + one_tick * (1 + op.tick % 700));
+            },
+            out_.pulses, out_.changes, requests_.list);
     }
 
     const Program& program_;
-    const Way& way_;
     Random random_;
     Outcome out_;
     Requests requests_;
@@ -255,8 +253,25 @@ class Bench {
 
 }  // namespace
 
-Outcome run_on_chip(const Program& program, const Way& way) {
-    return Bench(program, way).run();
+Outcome run_on_chip(const Program& program) {
+    return Bench(program).run();
+}
+
+void run_both(const Program& program, oracle::Comparison& both) {
+    const Way& way = program.way;
+    const Outcome twin = run_on_twin(program), chip = run_on_chip(program);
+    for (std::size_t a = 0; a < axis_count && way.watch && !way.listen; ++a)
+        both.same_elements("watched count", twin.crossings[a], chip.crossings[a]);
+    if (way.listen) both.same_elements("pulse", twin.pulses, chip.pulses);
+    if (way.follow) both.same_elements("output pin", twin.changes, chip.changes);
+    both.same_elements("interrupt", twin.requests, chip.requests);
+    both.same_elements("after op", twin.sights, chip.sights);
+    both.same("conditions", twin.conditions, chip.conditions);
+    both.count("accesses and wire changes", program.ops.size());
+    both.count("ticks", program.ops.back().tick);
+    both.count("pulses", twin.pulses.size());
+    both.count("changes of the interrupt line", twin.requests.size());
+    both.count("changes of output pins", twin.changes.size());
 }
 
 }  // namespace motionrack::mcx314::twin

@@ -5,6 +5,7 @@
 
 namespace motionrack::mcx314::twin {
 
-Outcome run_on_chip(const Program& program, const Way& way);
+Outcome run_on_chip(const Program& program);
+void run_both(const Program& program, oracle::Comparison& both);
 
 }  // namespace motionrack::mcx314::twin

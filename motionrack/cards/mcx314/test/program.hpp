@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <motionrack/cards/mcx314/test/twin.hpp>
 #include <string>
+#include <tests/oracle/harness.hpp>
 #include <vector>
 
 namespace motionrack::mcx314::twin {
@@ -28,12 +29,22 @@ struct Op {
     bool is_read() const { return kind == Kind::read || kind == Kind::read_byte; }
 };
 
+/// Run modes of a program; all must give the same outcome.
+struct Way {
+    bool listen = true;        ///< with an edge listener
+    bool watch = false;        ///< with watches of the counts
+    bool follow = false;       ///< with followers of the output pins
+    std::uint64_t slices = 0;  ///< seed of random divisions of the run between ops; 0: none
+};
+
 struct Program {
     std::uint64_t seed = 0;
     std::uint64_t number = 0;
     ChipOptions options;     ///< options of its chip
     std::int64_t ticks = 0;  ///< runs to this tick after the last op
     std::vector<Op> ops;
+    Way way;
+    std::size_t snapshot_at = oracle::never;  ///< after this op, or soon, the chip is saved, disturbed and restored
     bool extended() const { return options.variant == Variant::mcx314as; }
 };
 
@@ -41,7 +52,7 @@ struct Program {
 Program make_program(std::uint64_t seed, std::uint64_t number, const ChipOptions& options = {});
 
 /// The register traffic as text, one line per op.
-std::string to_text(const Program& program);
+std::string text_of(const Program& program);
 
 /// splitmix64: small, and the same on every machine.
 class Random {

@@ -1,4 +1,6 @@
 // Prints register programs in readable form.
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <motionrack/cards/mcx314/test/program.hpp>
 
@@ -88,20 +90,23 @@ const char* name_of_command(int code) {
 
 }  // namespace
 
-std::string to_text(const Program& program) {
+std::string text_of(const Program& program) {
     static constexpr const char* pins[] = {"IN0",  "IN1",   "IN2",   "IN3",  "EXPP",
                                            "EXPM", "INPOS", "ALARM", "LMTP", "LMTM"};
     const ChipOptions& options = program.options;
-    std::string out = std::string(program.extended() ? "MCX314As, " : "") +
-                      (options.slow_drive == SlowDrive::at_sv ? "slow drives at SV, " : "") +
-                      (options.software_limit == SoftwareLimit::at ? "limits at COMP+, " : "") + "AO " +
-                      std::to_string(options.offset_after_reset) + ", seed " + std::to_string(program.seed) +
-                      ", program " + std::to_string(program.number) + ", " + std::to_string(program.ticks) + " ticks\n";
+    const Way& way = program.way;
+    std::string out = fmt::format("{}{}{}{}{}{}AO {}, slices {}, saved after op {}, seed {}, program {}, {} ticks\n",
+                                  program.extended() ? "MCX314As, " : "",
+                                  options.slow_drive == SlowDrive::at_sv ? "slow drives at SV, " : "",
+                                  options.software_limit == SoftwareLimit::at ? "limits at COMP+, " : "",
+                                  way.listen ? "" : "nobody listens to edges, ", way.watch ? "counts watched, " : "",
+                                  way.follow ? "pins followed, " : "", options.offset_after_reset, way.slices,
+                                  program.snapshot_at, program.seed, program.number, program.ticks);
     unsigned wr6 = 0, wr7 = 0;
     for (const Op& op : program.ops) {
         char line[160];
-        int n = std::snprintf(line, sizeof line, "  tick %8lld%s ", static_cast<long long>(op.tick),
-                              op.between ? ".5" : "  ");
+        int n = std::snprintf(line, sizeof line, "%5zu tick %8lld%s ", static_cast<std::size_t>(&op - &program.ops[0]),
+                              static_cast<long long>(op.tick), op.between ? ".5" : "  ");
         const auto rest = [&] { return sizeof line - static_cast<std::size_t>(n); };
         if (op.kind == Op::Kind::input) {
             n +=

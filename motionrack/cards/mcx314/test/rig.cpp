@@ -1,8 +1,11 @@
-// Register programs on the twin, and the comparison of outcomes.
+// Register programs on the twin, and outcomes as text.
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <motionrack/cards/mcx314/test/rig.hpp>
+#include <ostream>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -74,7 +77,8 @@ void find_crossings(Outcome& out) {
 
 }  // namespace
 
-Outcome run_on_twin(const Program& program, bool follow) {
+Outcome run_on_twin(const Program& program) {
+    const bool follow = program.way.follow;
     Twin twin(program.options);
     Outcome out;
     Pins pins(twin, out.changes);
@@ -144,93 +148,33 @@ Outcome run_on_twin(const Program& program, bool follow) {
 
 namespace {
 
-std::string text_of_sample(const Pulse& pulse) {
-    return std::string(1, "XYZU"[pulse.axis]) + (pulse.direction > 0 ? "+" : "-") + " at tick " +
-           std::to_string(pulse.tick);
-}
-
-std::string first_pulse_difference(const std::vector<Pulse>& twin, const std::vector<Pulse>& chip) {
-    const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
-    if (a == twin.end() && b == chip.end()) return "";
-    return "pulse " + std::to_string(a - twin.begin()) + ": twin " +
-           (a == twin.end() ? "has no more" : text_of_sample(*a)) + ", chip " +
-           (b == chip.end() ? "has no more" : text_of_sample(*b)) + "\n";
-}
-
-std::string first_request_difference(const std::vector<Request>& twin, const std::vector<Request>& chip) {
-    const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
-    if (a == twin.end() && b == chip.end()) return "";
-    const auto text = [](const Request& r) {
-        return std::string(r.active ? "requested" : "cleared") + " at tick " + std::to_string(r.half_tick / 2) +
-               (r.half_tick & 1 ? ".5" : "");
-    };
-    return "interrupt: twin " + (a == twin.end() ? "no more" : text(*a)) + ", chip " +
-           (b == chip.end() ? "no more" : text(*b)) + "\n";
-}
-
-std::string first_change_difference(const std::vector<Change>& twin, const std::vector<Change>& chip) {
-    const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
-    if (a == twin.end() && b == chip.end()) return "";
-    const auto text = [](const Change& c) {
-        static constexpr const char* pins[output_count] = {"PP",   "PM",   "OUT4", "OUT5", "OUT6", "OUT7",
-                                                           "OUT0", "OUT1", "OUT2", "OUT3", "DRIVE"};
-        return std::string(1, "XYZU"[c.axis]) + pins[c.pin] + (c.level ? " High" : " Low") + " at tick " +
-               std::to_string(c.half_tick / 2) + (c.half_tick & 1 ? ".5" : "");
-    };
-    return "output pin: twin " + (a == twin.end() ? "no more" : text(*a)) + ", chip " +
-           (b == chip.end() ? "no more" : text(*b)) + "\n";
-}
-
-std::string first_crossing_difference(const std::vector<Crossing>& twin, const std::vector<Crossing>& chip) {
-    const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
-    if (a == twin.end() && b == chip.end()) return "";
-    const auto text = [](const Crossing& c) {
-        return std::string(1, "XYZU"[c.axis]) + " = " + std::to_string(c.count) + " at tick " + std::to_string(c.tick);
-    };
-    return "watched count: twin " + (a == twin.end() ? "no more" : text(*a)) + ", chip " +
-           (b == chip.end() ? "no more" : text(*b)) + "\n";
+/// An instant in half ticks.
+std::string text_of_instant(std::int64_t half_tick) {
+    return fmt::format("at tick {}{}", half_tick / 2, half_tick & 1 ? ".5" : "");
 }
 
 }  // namespace
 
-std::string difference(const Program& program, const Outcome& twin, const Outcome& chip, const Way& way) {
-    std::string out;
-    for (int a = 0; a < axis_count && way.watch; ++a)
-        out += first_crossing_difference(twin.crossings[a], chip.crossings[a]);
-    if (way.listen) out = first_pulse_difference(twin.pulses, chip.pulses);
-    if (way.follow) out += first_change_difference(twin.changes, chip.changes);
-    out += first_request_difference(twin.requests, chip.requests);
-    for (std::size_t i = 0; i < program.ops.size(); ++i) {
-        const Sight &t = twin.sights[i], &c = chip.sights[i];
-        if (t == c) continue;
-        const Op& op = program.ops[i];
-        out += "op " + std::to_string(i) + " at tick " + std::to_string(op.tick) + (op.between ? ".5" : "") + ": ";
-        if (t.value != c.value) {
-            char line[80];
-            std::snprintf(line, sizeof line, "RR%d%s twin %04X chip %04X; ", op.offset / 2,
-                          op.kind == Op::Kind::read ? ""
-                          : op.offset % 2 != 0      ? "H"
-                                                    : "L",
-                          t.value, c.value);
-            out += line;
-        }
-        if (t.interrupt != c.interrupt)
-            out +=
-                std::string("interrupt twin ") + (t.interrupt ? "1" : "0") + " chip " + (c.interrupt ? "1; " : "0; ");
-        for (int a = 0; a < axis_count; ++a)
-            if (t.count[a] != c.count[a])
-                out += std::string(1, "XYZU"[a]) + " count twin " + std::to_string(t.count[a]) + " chip " +
-                       std::to_string(c.count[a]) + "; ";
-        for (int a = 0; a < axis_count; ++a)
-            if (t.outputs[a] != c.outputs[a])
-                out += std::string(1, "XYZU"[a]) + " outputs (PP PM OUT4-7 OUT0-3 DRIVE from bit 0) twin " +
-                       std::to_string(t.outputs[a]) + " chip " + std::to_string(c.outputs[a]) + "; ";
-        return out + "\n";
-    }
-    if (twin.conditions != chip.conditions)
-        out +=
-            "conditions: twin " + std::to_string(twin.conditions) + " chip " + std::to_string(chip.conditions) + "\n";
-    return out;
+void PrintTo(const Sight& sight, std::ostream* out) {
+    *out << fmt::format("read {:04X} interrupt {:d}", sight.value, sight.interrupt);
+    for (std::size_t a = 0; a < axis_count; ++a)
+        *out << fmt::format(", {} count {} PP PM OUT4-7 OUT0-3 DRIVE {:011b}", "XYZU"[a], sight.count[a],
+                            sight.outputs[a]);
+}
+void PrintTo(const Pulse& pulse, std::ostream* out) {
+    *out << fmt::format("{}{} at tick {}", "XYZU"[pulse.axis], pulse.direction > 0 ? '+' : '-', pulse.tick);
+}
+void PrintTo(const Request& request, std::ostream* out) {
+    *out << (request.active ? "requested " : "cleared ") << text_of_instant(request.half_tick);
+}
+void PrintTo(const Crossing& crossing, std::ostream* out) {
+    *out << fmt::format("{} = {} at tick {}", "XYZU"[crossing.axis], crossing.count, crossing.tick);
+}
+void PrintTo(const Change& change, std::ostream* out) {
+    static constexpr const char* pins[output_count] = {"PP",   "PM",   "OUT4", "OUT5", "OUT6", "OUT7",
+                                                       "OUT0", "OUT1", "OUT2", "OUT3", "DRIVE"};
+    *out << fmt::format("{}{} {} {}", "XYZU"[change.axis], pins[change.pin], change.level ? "High" : "Low",
+                        text_of_instant(change.half_tick));
 }
 
 }  // namespace motionrack::mcx314::twin

@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <iosfwd>
 #include <motionrack/cards/mcx314/test/program.hpp>
-#include <string>
 #include <vector>
 
 namespace motionrack::mcx314::twin {
@@ -59,24 +59,18 @@ struct Outcome {
     std::uint64_t conditions = 0;                             ///< reported since the start
 };
 
-/// Run modes of a program; all must give the same outcome.
-struct Way {
-    bool listen = true;           ///< with an edge listener
-    bool watch = false;           ///< with watches of the counts
-    bool follow = false;          ///< with followers of the output pins
-    std::uint64_t slices = 0;     ///< seed of random divisions of the run between ops; 0: none
-    std::size_t snapshot_at = 0;  ///< after this op the chip is saved, disturbed and restored; 0: never
-};
-
 /// By tick, then axis.
 void sort_pulses(std::vector<Pulse>& pulses);
 
-/// `follow`: with the changes of the output pins.
-Outcome run_on_twin(const Program& program, bool follow = false);
+Outcome run_on_twin(const Program& program);
 /// By instant, axis, pin.
 void sort_changes(std::vector<Change>& changes);
 
-/// The first difference as text, or "" if there is none; of pulses and crossings only with listeners.
-std::string difference(const Program& program, const Outcome& twin, const Outcome& chip, const Way& way);
+// For messages.
+void PrintTo(const Sight& sight, std::ostream* out);
+void PrintTo(const Pulse& pulse, std::ostream* out);
+void PrintTo(const Request& request, std::ostream* out);
+void PrintTo(const Crossing& crossing, std::ostream* out);
+void PrintTo(const Change& change, std::ostream* out);
 
 }  // namespace motionrack::mcx314::twin

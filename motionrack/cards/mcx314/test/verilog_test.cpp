@@ -68,7 +68,7 @@ std::vector<std::int64_t> pulses_of_chip(const VerilogDrive& drive, std::int64_t
     if (drive.stop_tick >= 0) write(drive.stop_tick, 0, 0x126);
     write(end + 100'000, 14, 0);
     std::vector<std::int64_t> out;
-    for (const Pulse& pulse : run_on_chip(program, Way{true, false, 0, 0}).pulses) out.push_back(pulse.tick);
+    for (const Pulse& pulse : run_on_chip(program).pulses) out.push_back(pulse.tick);
     return out;
 }
 
