@@ -99,21 +99,21 @@ Comparison comparison_of(const Program& program) {
     return out;
 }
 
-/// Leaves out steps of the vector number `part` while `fails(program)`.
+/// Leaves out steps of the vector number `part` while `fails(program)`. The last one, which ends the program, stays.
 template <std::size_t part, class Program, class Fails>
 void shrink_part(Program& program, const Fails& fails, int max_tries) {
     const auto steps = [](Program& of) -> decltype(auto) { return std::get<part>(steps_of(of)); };
     for (std::size_t piece = std::max<std::size_t>(steps(program).size() / 2, 1); max_tries > 0;) {
         bool dropped = false;
-        for (std::size_t at = 0; at < steps(program).size() && max_tries > 0; --max_tries) {
-            const std::size_t count = std::min(piece, steps(program).size() - at);
+        for (std::size_t at = 0; at + 1 < steps(program).size() && max_tries > 0; --max_tries) {
+            const std::size_t count = std::min(piece, steps(program).size() - 1 - at);
             Program smaller = program;
             const auto from = steps(smaller).begin() + static_cast<std::ptrdiff_t>(at);
             steps(smaller).erase(from, from + static_cast<std::ptrdiff_t>(count));
             if constexpr (requires { smaller.snapshot_at; })  // at the same step
                 if (program.snapshot_at != never && program.snapshot_at > at)
                     smaller.snapshot_at -= std::min(count, program.snapshot_at - at);
-            if (!steps(smaller).empty() && fails(smaller)) {
+            if (fails(smaller)) {
                 program = std::move(smaller);
                 dropped = true;
             } else {
