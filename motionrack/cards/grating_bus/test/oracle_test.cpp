@@ -1,69 +1,50 @@
 // Random programs of cards, faults and stuck lines give the same result on the event-driven cards and on their slow
 // twin, with any listeners on wires.
 //
-// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment select other and more programs.
+// tests/oracle/harness.hpp names the variables of the environment that select other and more programs.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <iostream>
 #include <motionrack/cards/grating_bus/test/outcome.hpp>
-#include <tests/environment.hpp>
+#include <tests/oracle/harness.hpp>
 
 namespace motionrack::grating_bus::twin {
+
+void run_both(const Program& program, oracle::Comparison& both) {
+    const Outcome twin = on_twin(program);
+    for (const Watch watch : {Watch::nobody, Watch::everybody, Watch::now_and_then}) {
+        const Outcome cards = on_cards(program, watch);
+        oracle::Comparison now;
+        now.same_elements("frame", twin.frames, cards.frames);
+        now.same_elements("look", twin.looks, cards.looks);
+        now.same_elements("conflict", twin.conflicts, cards.conflicts);
+        now.same_elements("report", twin.reports, cards.reports);
+        if (watch == Watch::everybody) now.same_elements("change", twin.changes, cards.changes);
+        now.same("conflicts", twin.conflict_count, cards.conflict_count);
+        if (!now.equal()) both.note(fmt::format("watched by {}\n{}", static_cast<int>(watch), now.differences()));
+    }
+    both.count("frames", twin.frames.size());
+    both.count("conflicts", twin.conflict_count);
+    both.count("changes of wires", twin.changes.size());
+    both.count("reports", twin.reports.size());
+    both.count("looks", twin.looks.size());
+}
+
 namespace {
 
-/// The first difference as text.
-std::string difference(const char* what, const std::vector<std::string>& twin, const std::vector<std::string>& cards) {
-    if (twin == cards) return "";
-    std::size_t i = 0;
-    while (i < twin.size() && i < cards.size() && twin[i] == cards[i]) ++i;
-    const auto at = [i](const std::vector<std::string>& all) { return i < all.size() ? all[i] : "none"; };
-    std::string out = what;
-    out.append(" ")
-        .append(std::to_string(i))
-        .append("\n  twin:  ")
-        .append(at(twin))
-        .append("\n  cards: ")
-        .append(at(cards))
-        .append("\n");
-    return out;
-}
-
-void compare_with_twin(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
-    const std::uint64_t seed = seed_from_environment(20'261'121) + first;
-    std::cout << "seed " << seed << ", " << programs << " programs" << std::endl;
-    std::size_t frames = 0, conflicts = 0, changes = 0, reports = 0, looks = 0;
-    for (std::uint64_t number = 0; number < programs; ++number) {
-        const Program program = Maker(seed + number).make();
-        const Outcome twin = on_twin(program);
-        for (const Watch watch : {Watch::nobody, Watch::everybody, Watch::now_and_then}) {
-            const Outcome cards =
-                on_cards(program, watch, with_snapshot ? number % program.ops.size() : program.ops.size());
-            std::string differs = difference("frame", twin.frames, cards.frames) +
-                                  difference("look", twin.looks, cards.looks) +
-                                  difference("conflict", twin.conflicts, cards.conflicts) +
-                                  difference("report", twin.reports, cards.reports);
-            if (watch == Watch::everybody) differs += difference("change", twin.changes, cards.changes);
-            ASSERT_EQ(differs, "") << "program " << number << " of seed " << seed << ", watched by "
-                                   << static_cast<int>(watch) << "\n"
-                                   << text_of(program);
-            ASSERT_EQ(twin.conflict_count, cards.conflict_count) << "program " << number << " of seed " << seed << "\n"
-                                                                 << text_of(program);
-        }
-        frames += twin.frames.size(), conflicts += twin.conflict_count, changes += twin.changes.size(),
-            reports += twin.reports.size();
-        looks += twin.looks.size();
-    }
-    std::cout << frames << " frames, " << conflicts << " conflicts, " << changes << " changes of wires, " << reports
-              << " reports, " << looks << " looks" << std::endl;
-}
+constexpr std::uint64_t usual_seed = 20'261'121;
 
 TEST(GratingBusOracle, RandomProgramsGiveTheSameReadingsOnTheCardsAndTheirTwin) {
-    compare_with_twin(0, cases("MOTIONRACK_PROGRAMS", 2500), false);
+    oracle::compare({0, oracle::programs(2500), usual_seed},
+                    [](std::uint64_t seed, std::uint64_t number) { return Maker(seed + number).make(); });
 }
 
 TEST(GratingBusOracle, ARestoredSnapshotContinuesIdentically) {
-    compare_with_twin(1'000'000, cases("MOTIONRACK_PROGRAMS", 2500) / 5, true);
+    constexpr std::uint64_t first = 1'000'000;
+    oracle::compare({first, oracle::programs(500), usual_seed}, [](std::uint64_t seed, std::uint64_t number) {
+        Program program = Maker(seed + number).make();
+        program.snapshot_at = (number - first) % program.ops.size();
+        return program;
+    });
 }
 
 }  // namespace

@@ -25,26 +25,16 @@ class StepMotion final : public sim::PositionFunction {
 
 class Changes final : public sim::Kernel::WireObserver {
   public:
-    explicit Changes(std::vector<std::pair<sim::WireId, int>> wires) {
-        for (const auto& [wire, level] : wires) waves_[wire].push_back({-1, level});
+    explicit Changes(const std::vector<sim::WireId>& wires) {
+        for (const sim::WireId wire : wires) numbers_.emplace(wire, static_cast<int>(numbers_.size()));
     }
     void wire_changed(sim::WireId wire, int level, Instant now) override {
-        const auto at = waves_.find(wire);
-        if (at == waves_.end()) return;
-        if (at->second.back().first == now.count())
-            at->second.back().second = level;
-        else
-            at->second.emplace_back(now.count(), level);
+        if (const auto at = numbers_.find(wire); at != numbers_.end()) raw.push_back({now.count(), at->second, level});
     }
-    void put(std::vector<std::string>& out, sim::WireId wire, std::int64_t number) const {
-        const auto& wave = waves_.at(wire);
-        int last = wave.front().second;
-        for (std::size_t i = 1; i < wave.size(); ++i)
-            if (wave[i].second != last) out.push_back(row({number, wave[i].first, last = wave[i].second}));
-    }
+    std::vector<oracle::Change> raw;
 
   private:
-    std::map<sim::WireId, std::vector<std::pair<Ticks, int>>> waves_;
+    std::map<sim::WireId, int> numbers_;
 };
 
 grating_bus::CardSettings settings_of(const CardSettings& from, std::uint32_t seed) {
@@ -103,6 +93,8 @@ struct World {
         }
     }
     void carry_out(const Op& op);
+    /// The cards continue, and are then restored, with what has been recorded.
+    void disturb(Ticks at, std::vector<oracle::Change>& changes);
     void poll(Outcome& out, Ticks at) const;
 
     sim::Kernel kernel;
@@ -168,6 +160,19 @@ void World::carry_out(const Op& op) {
     settle();
 }
 
+void World::disturb(Ticks at, std::vector<oracle::Change>& changes) {
+    std::vector<RecordingListener> heard;
+    for (const auto& listener : listeners) heard.push_back(*listener);
+    oracle::disturb_and_restore(
+        kernel,
+        [&] {
+            carry_out({at, Op::force, 0, 1, hold, -1});
+            run_to(kernel.now() + microseconds(3));
+        },
+        changes);
+    for (std::size_t card = 0; card < heard.size(); ++card) listeners[card]->heard = heard[card].heard;
+}
+
 void World::poll(Outcome& out, Ticks at) const {
     std::string text = row({at});
     for (int line = 0; line < line_count; ++line) text.append(row({bus.level(static_cast<grating_bus::Line>(line))}));
@@ -193,11 +198,11 @@ void World::poll(Outcome& out, Ticks at) const {
 
 }  // namespace
 
-Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at) {
+Outcome on_cards(const Program& program, Watch watch) {
     World world(program);
-    std::vector<std::pair<sim::WireId, int>> at_start;
-    for (const sim::WireId wire : world.wires) at_start.emplace_back(wire, world.kernel.level(wire));
-    Changes changes(at_start);
+    std::vector<std::int64_t> levels;
+    for (const sim::WireId wire : world.wires) levels.push_back(world.kernel.level(wire));
+    Changes changes(world.wires);
     if (watch == Watch::everybody) {
         world.watcher.watch(true);
         world.kernel.observe_wires(&changes);
@@ -210,16 +215,7 @@ Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at) {
         if (watch == Watch::now_and_then && op.kind == Op::poll) world.watcher.watch(op.a != 0);
         world.carry_out(op);
         world.poll(out, op.at);
-        if (i != snapshot_at) continue;
-        std::vector<std::vector<Heard>> heard;
-        for (const auto& listener : world.listeners) heard.push_back(listener->heard);
-        const Changes changed = changes;
-        const sim::Snapshot saved = world.kernel.snapshot();
-        world.carry_out({op.at, Op::force, 0, 1, hold, -1});
-        world.run_to(world.kernel.now() + microseconds(3));
-        world.kernel.restore(saved);
-        changes = changed;
-        for (std::size_t card = 0; card < heard.size(); ++card) world.listeners[card]->heard = heard[card];
+        if (i == program.snapshot_at) world.disturb(op.at, changes.raw);
     }
     for (std::size_t i = 0; i < world.cards.size(); ++i)
         for (const Heard& heard : world.listeners[i]->heard)
@@ -245,8 +241,7 @@ Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at) {
         const auto number = [](std::uint64_t n) { return static_cast<std::int64_t>(n); };
         out.conflicts.push_back(row({c.begin.count(), c.end.count(), number(c.line), number(c.high), number(c.low)}));
     }
-    for (std::size_t i = 0; watch == Watch::everybody && i < world.wires.size(); ++i)
-        changes.put(out.changes, world.wires[i], static_cast<std::int64_t>(i));
+    out.changes = oracle::settled(std::move(changes.raw), std::move(levels));
     return out;
 }
 

@@ -3,47 +3,29 @@
 #include <motionrack/cards/grating_bus/model/lines.hpp>
 #include <motionrack/cards/grating_bus/test/outcome.hpp>
 #include <tuple>
+#include <utility>
 
 namespace motionrack::grating_bus::twin {
 
 namespace {
 
-/// Changes of one wire: the last level of an instant, if it differs from the previous one.
-class Wave {
-  public:
-    explicit Wave(std::int64_t level) : last_(level) {}
-    void add(Ticks at, std::int64_t level) {
-        if (!changes_.empty() && changes_.back().first == at)
-            changes_.back().second = level;
-        else
-            changes_.emplace_back(at, level);
-    }
-    void put(std::vector<std::string>& out, std::int64_t wire) {
-        for (const auto& [at, level] : changes_)
-            if (level != last_) out.push_back(row({wire, at, last_ = level}));
-    }
-
-  private:
-    std::int64_t last_;
-    std::vector<std::pair<Ticks, std::int64_t>> changes_;
-};
-
 void put_changes(Outcome& out, const Twin& twin, std::size_t cards) {
-    std::int64_t wire = 0;
+    std::vector<oracle::Change> raw;
+    std::vector<std::int64_t> levels;
     for (int line = 0; line < line_count; ++line)
         for (int bit = 0; bit < width[line]; ++bit) {
-            Wave wave(rest[line] >> bit & 1);
             for (const LevelChange& change : twin.changes())
-                if (change.line == line) wave.add(change.at, change.level >> bit & 1);
-            wave.put(out.changes, wire++);
+                if (change.line == line)
+                    raw.push_back({change.at, static_cast<int>(levels.size()), change.level >> bit & 1});
+            levels.push_back(rest[line] >> bit & 1);
         }
     for (std::size_t card = 0; card < cards; ++card) {
-        Wave state(0), done(0);
+        const int state = static_cast<int>(levels.size()), done = state + 1;
         for (const StateChange& change : twin.states(static_cast<int>(card)))
-            state.add(change.at, change.state), done.add(change.at, change.state == 12);
-        state.put(out.changes, wire++);
-        done.put(out.changes, wire++);
+            raw.insert(raw.end(), {{change.at, state, change.state}, {change.at, done, change.state == 12}});
+        levels.insert(levels.end(), {0, 0});
     }
+    out.changes = oracle::settled(std::move(raw), std::move(levels));
 }
 
 /// Merges the conflicts of a line's bits, from the first difference to the end of the last.

@@ -3,6 +3,7 @@
 #include <motionrack/cards/grating_bus/model/card.hpp>
 #include <motionrack/cards/grating_bus/test/random_bus.hpp>
 #include <numeric>
+#include <ostream>
 
 namespace motionrack::grating_bus::twin {
 
@@ -224,8 +225,6 @@ void carry_out(Twin& twin, const Op& op) {
 }
 
 std::string text_of(const Program& program) {
-    constexpr const char* kinds[] = {"look",     "off",   "reset",   "late",  "miss_edges", "jitter",
-                                     "no_latch", "force", "release", "claim", "give_back",  "clear"};
     std::string out;
     const auto add = [&out](const char* name, std::int64_t value) {
         out.append(" ").append(name).append(" ").append(std::to_string(value));
@@ -241,13 +240,15 @@ std::string text_of(const Program& program) {
     }
     out += "decoder";
     add("scales", program.decoder.scales), add("latch", program.decoder.latch), add("output", program.decoder.output);
-    out += "\n";
-    for (const Op& op : program.ops) {
-        out += std::to_string(op.at) + " " + kinds[op.kind];
-        add("who", op.who), add("a", op.a), add("line", op.line), add("bit", op.bit);
-        out += "\n";
-    }
-    return out;
+    add("saved after", static_cast<std::int64_t>(program.snapshot_at));
+    return out + "\n" + oracle::text_of_steps(program.ops);
+}
+
+void PrintTo(const Op& op, std::ostream* out) {
+    constexpr const char* kinds[] = {"look",     "off",   "reset",   "late",  "miss_edges", "jitter",
+                                     "no_latch", "force", "release", "claim", "give_back",  "clear"};
+    *out << op.at << ' ' << kinds[op.kind] << " who " << op.who << " a " << op.a << " line " << op.line << " bit "
+         << op.bit;
 }
 
 }  // namespace motionrack::grating_bus::twin

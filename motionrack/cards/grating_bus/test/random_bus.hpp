@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <motionrack/cards/grating_bus/test/twin.hpp>
 #include <random>
 #include <string>
+#include <tests/oracle/harness.hpp>
 #include <vector>
 
 namespace motionrack::grating_bus::twin {
@@ -34,6 +36,7 @@ struct Program {
     std::vector<Course> scales;
     std::vector<Op> ops;
     Ticks end = 0;
+    std::size_t snapshot_at = oracle::never;  ///< after this op the cards are saved, disturbed and restored
 };
 
 class Maker {
@@ -64,7 +67,8 @@ Twin twin_of(const Program& program, bool every_tick = false);
 /// Runs the twin to the operation's instant and executes it.
 void carry_out(Twin& twin, const Op& op);
 
-/// For messages of failed tests.
+// For messages of failed tests.
 std::string text_of(const Program& program);
+void PrintTo(const Op& op, std::ostream* out);
 
 }  // namespace motionrack::grating_bus::twin
