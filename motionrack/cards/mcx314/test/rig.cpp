@@ -62,6 +62,35 @@ class Pins {
     std::array<std::int64_t, axis_count> made_{};
 };
 
+// Returns what is read, 0 for others.
+std::uint16_t apply(Twin& twin, const Op& op) {
+    switch (op.kind) {
+        case Op::Kind::write:
+            twin.write(op.offset, op.value);
+            break;
+        case Op::Kind::read:
+            return twin.read(op.offset);
+        case Op::Kind::write_byte:
+            twin.write_byte(op.offset, static_cast<std::uint8_t>(op.value));
+            break;
+        case Op::Kind::read_byte:
+            return twin.read_byte(op.offset);
+        case Op::Kind::encoder:
+            twin.set_encoder(op.axis, op.offset, op.value != 0);
+            break;
+        case Op::Kind::step:
+            twin.set_step(op.value != 0);
+            break;
+        case Op::Kind::input:
+            twin.set_input(op.axis, op.pin, op.value != 0);
+            break;
+        case Op::Kind::emergency:
+            twin.set_emergency(op.value != 0);
+            break;
+    }
+    return 0;
+}
+
 // Instants at which watched ranges are left, from the pulses.
 void find_crossings(Outcome& out) {
     std::array<std::int64_t, axis_count> count{}, middle{};
@@ -102,32 +131,7 @@ Outcome run_on_twin(const Program& program) {
             op.tick - (wire && !op.between ? 1 : 0);  // a wire at the instant of a tick belongs to it
         run_to(before);
         Sight sight;
-        switch (op.kind) {
-            case Op::Kind::write:
-                twin.write(op.offset, op.value);
-                break;
-            case Op::Kind::read:
-                sight.value = twin.read(op.offset);
-                break;
-            case Op::Kind::write_byte:
-                twin.write_byte(op.offset, static_cast<std::uint8_t>(op.value));
-                break;
-            case Op::Kind::read_byte:
-                sight.value = twin.read_byte(op.offset);
-                break;
-            case Op::Kind::encoder:
-                twin.set_encoder(op.axis, op.offset, op.value != 0);
-                break;
-            case Op::Kind::step:
-                twin.set_step(op.value != 0);
-                break;
-            case Op::Kind::input:
-                twin.set_input(op.axis, op.pin, op.value != 0);
-                break;
-            case Op::Kind::emergency:
-                twin.set_emergency(op.value != 0);
-                break;
-        }
+        sight.value = apply(twin, op);
         if (wire && (&op == &program.ops.back() || (&op)[1].order() != op.order())) twin.hear_encoders();
         if (!wire) {
             sight.interrupt = twin.interrupt();
