@@ -1,6 +1,9 @@
 // Random jobs.
+#include <algorithm>
 #include <cmath>
 #include <motionrack/cards/rtc5/test/job.hpp>
+#include <ostream>
+#include <tests/oracle/harness.hpp>
 
 namespace motionrack::rtc5 {
 
@@ -132,6 +135,31 @@ Job JobMaker::make() {
     for (std::int64_t i = 0; i < size; ++i) out.acts.push_back(act());
     out.acts.push_back({Act::run, 200, 1});
     return out;
+}
+
+std::string text_of(const Job& job) {
+    std::string out = fmt::format("inputs {}, counts per tick {} {}, a word every {} ticks\n", job.inputs, job.rate[0],
+                                  job.rate[1], job.word_every);
+    out += oracle::text_of_steps(job.acts);
+    out += "list 1\n" + oracle::text_of_steps(job.list1) + "list 2\n" + oracle::text_of_steps(job.list2);
+    for (const auto& sub : job.subroutines) out += "subroutine\n" + oracle::text_of_steps(sub);
+    return out;
+}
+
+void PrintTo(const Act& act, std::ostream* out) {
+    constexpr const char* names[Act::kinds] = {
+        "run",    "load",    "execute",   "change",   "loop",     "quit_loop", "stop",     "pause",       "restart",
+        "alone",  "start",   "word",      "count",    "simulate", "tracking",  "control",  "start_delay", "matrix",
+        "offset", "angle",   "scale",     "hi",       "cor",      "delays",    "mcbsp_in", "multi",       "online",
+        "apply",  "init_2d", "read_info", "reset_2d", "watch",    "laser"};
+    *out << fmt::format("{} {} {} ({} {} {} {})", names[act.kind], act.a, act.b, act.v[0], act.v[1], act.v[2],
+                        act.v[3]);
+}
+
+void PrintTo(const Command& command, std::ostream* out) {
+    *out << info(command.op).name;
+    for (int k = 0; k < std::min(info(command.op).param_count(), 4); ++k)
+        *out << fmt::format(" {}", command.p[static_cast<std::size_t>(k)]);
 }
 
 }  // namespace motionrack::rtc5

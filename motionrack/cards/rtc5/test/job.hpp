@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <iosfwd>
 #include <motionrack/cards/rtc5/map.hpp>
 #include <random>
+#include <string>
+#include <tuple>
 #include <vector>
 
 namespace motionrack::rtc5 {
@@ -59,6 +62,16 @@ struct Job {
     double rate[2] = {};  ///< counts per tick
     std::int64_t word_every = 1;
 };
+
+/// What may be left out of a job.
+inline auto steps_of(Job& job) {
+    return std::tie(job.acts, job.list1, job.list2);
+}
+
+// For messages of failed tests.
+std::string text_of(const Job& job);
+void PrintTo(const Act& act, std::ostream* out);
+void PrintTo(const Command& command, std::ostream* out);
 
 class JobMaker {
   public:

@@ -1,20 +1,28 @@
 // Random jobs give the same result on the card, which works in blocks and spans, and on its slow twin.
 //
-// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment select other and more jobs.
+// tests/oracle/harness.hpp names the variables of the environment that select other and more jobs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <iostream>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 #include <motionrack/cards/rtc5/test/job.hpp>
 #include <motionrack/cards/rtc5/test/twin.hpp>
+#include <ostream>
 #include <string>
-#include <tests/environment.hpp>
+#include <tests/oracle/harness.hpp>
+#include <tuple>
 
 namespace motionrack::rtc5 {
+
+namespace twin {
+/// For messages of failed tests.
+void PrintTo(const Sample& s, std::ostream* out) {
+    *out << fmt::format("({}, {}, B {}, {}, laser {}, outside {})", s.x, s.y, s.x_b, s.y_b, s.laser, s.outside);
+}
+}  // namespace twin
+
 namespace {
 
 constexpr std::int64_t memory = 1700, list1 = 800, list2 = 800;
@@ -47,7 +55,7 @@ class JobInputs final : public Inputs {
 class Keeper final : public Sink {
   public:
     void samples(const Samples& b) override {
-        EXPECT_EQ(b.first, static_cast<std::int64_t>(first + got.size()));
+        gaps += b.first != first + static_cast<std::int64_t>(got.size());
         for (std::size_t i = 0; i < b.x.size(); ++i)
             got.push_back({b.x[i], b.y[i], b.x_b.empty() ? 0 : b.x_b[i], b.y_b.empty() ? 0 : b.y_b[i], b.laser[i],
                            outside(b, i)});
@@ -59,6 +67,7 @@ class Keeper final : public Sink {
                (y > max_field ? 8u : 0);
     }
     std::int64_t first = 0;
+    int gaps = 0;
     std::vector<twin::Sample> got;
 };
 
@@ -75,24 +84,20 @@ const FlyTable& fly_table() {
 /// Both cards side by side.
 class Pair {
   public:
-    explicit Pair(const Job& job)
-        : job_(job), card_({memory, list1, list2}), twin_(memory, list1, list2), inputs_(job) {
+    Pair(const Job& job, oracle::Comparison& both)
+        : job_(job), both_(both), card_({memory, list1, list2}), twin_(memory, list1, list2), inputs_(job) {
         table_ = table_of(lens_file());
         load();
         if (job.inputs) card_.set_inputs(&inputs_);
     }
 
-    /// Returns false if they differ; the reason has been printed.
-    bool run() {
-        for (std::size_t i = 0; i < job_.acts.size(); ++i) {
+    /// Stops at the first act after which they differ.
+    void run() {
+        for (std::size_t i = 0; i < job_.acts.size() && both_.equal(); ++i) {
             act(job_.acts[i]);
-            if (!same()) {
-                ADD_FAILURE() << "after act " << i << " (kind " << job_.acts[i].kind << ") at tick " << card_.tick()
-                              << where();
-                return false;
-            }
+            compare();
+            if (!both_.equal()) both_.note(fmt::format("after act {} at tick {}{}", i, card_.tick(), where()));
         }
-        return true;
     }
 
   private:
@@ -123,13 +128,12 @@ class Pair {
         Keeper keeper;
         keeper.first = card_.tick();
         card_.run_until(card_.tick() + n, looked_at ? &keeper : nullptr);
-        for (std::int64_t i = 0; i < n; ++i) {
+        both_.same("gaps between samples", 0, keeper.gaps);
+        if (looked_at) both_.same("samples", static_cast<std::size_t>(n), keeper.got.size());
+        for (std::int64_t i = 0; i < n && both_.equal(); ++i) {
             last_ = twin_tick();
-            if (!looked_at) continue;
-            const twin::Sample& got = keeper.got.at(static_cast<std::size_t>(i));
-            ASSERT_EQ(got, last_) << "tick " << twin_.now - 1 << ": (" << got.x << ", " << got.y << ", laser "
-                                  << got.laser << ") on the card, (" << last_.x << ", " << last_.y << ", laser "
-                                  << last_.laser << ") on the twin; B " << got.x_b << " " << last_.x_b << where();
+            if (looked_at && keeper.got[static_cast<std::size_t>(i)] != last_)
+                both_.same(fmt::format("tick {}", twin_.now - 1), last_, keeper.got[static_cast<std::size_t>(i)]);
         }
         ran_ = ran_ || n > 0;
     }
@@ -173,6 +177,14 @@ class Pair {
             case Act::word:
                 c.receive(static_cast<std::uint32_t>(a.a)), t.receive(static_cast<std::uint32_t>(a.a));
                 return;
+            default:
+                return act_on_inputs(a, c, t);
+        }
+    }
+
+    void act_on_inputs(const Act& a, Engine& c, twin::Twin& t) {
+        const auto pick = [&](std::int64_t n) { return a.a % n; };
+        switch (a.kind) {
             case Act::count: {
                 const auto e = static_cast<std::size_t>(pick(2));
                 t.encoders[e].input += static_cast<std::int32_t>(a.v[1] * 3000);
@@ -243,6 +255,14 @@ class Pair {
                 t.jump_limit = d.jump_limit;
                 return;
             }
+            default:
+                return act_on_others(a, c, t);
+        }
+    }
+
+    void act_on_others(const Act& a, Engine& c, twin::Twin& t) {
+        const auto pick = [&](std::int64_t n) { return a.a % n; };
+        switch (a.kind) {
             case Act::mcbsp_in:
                 static_cast<void>(c.set_mcbsp_in(static_cast<int>(pick(4)), a.v[0] * 3)),
                     t.set_mcbsp_in(static_cast<int>(pick(4)), a.v[0] * 3);
@@ -265,9 +285,11 @@ class Pair {
                 t.table_2d = a.b ? &fly_table() : nullptr;
                 return;
             case Act::read_info:
-                EXPECT_EQ(c.get_marking_info(), t.take_marking_info());
-                EXPECT_EQ(c.get_startstop_info(), t.startstop | startstop_bit("NO_STOP_SIGNAL") |
-                                                      (t.laser_disabled ? 0 : startstop_bit("LASER_ENABLED")));
+                both_.same("marking info", t.take_marking_info(), c.get_marking_info());
+                both_.same("start and stop info",
+                           t.startstop | startstop_bit("NO_STOP_SIGNAL") |
+                               (t.laser_disabled ? 0 : startstop_bit("LASER_ENABLED")),
+                           c.get_startstop_info());
                 t.startstop = 0;
                 return;
             case Act::watch:
@@ -295,58 +317,56 @@ class Pair {
         std::string out = "\n";
         for (std::int64_t i = std::max<std::int64_t>(0, twin_.current - 6); i < std::min(memory, twin_.current + 3);
              ++i) {
-            const Command& c = twin_.memory[static_cast<std::size_t>(i)];
-            out += fmt::format("{} {} {}", i == twin_.current ? "  >" : "   ", i, info(c.op).name);
-            for (int k = 0; k < std::min(info(c.op).param_count(), 4); ++k)
-                out += fmt::format(" {}", c.p[static_cast<std::size_t>(k)]);
-            out += "\n";
+            out += fmt::format("{} {} {}\n", i == twin_.current ? "  >" : "   ", i,
+                               testing::PrintToString(twin_.memory[static_cast<std::size_t>(i)]));
         }
         return out;
     }
 
-    bool same() {
+    void compare() {
         const State& s = card_.state();
-        EXPECT_EQ(s.tick, twin_.now);
-        EXPECT_EQ(s.p.x, twin_.p.x);
-        EXPECT_EQ(s.p.y, twin_.p.y);
-        if (ran_ && s.tick > 0) {
-            EXPECT_EQ(s.output.a[0], last_.x);
-            EXPECT_EQ(s.output.a[1], last_.y);
-        }
-        for (std::size_t e = 0; e < 2; ++e) {
-            EXPECT_EQ(s.encoders.counters[e].count(), twin_.encoders[e].count()) << e;
-            EXPECT_EQ(s.encoders.counters[e].travel, twin_.encoders[e].travel) << e;
-            EXPECT_EQ(s.encoders.counters[e].slow2, twin_.encoders[e].slow2) << e;
-        }
+        both_.same("tick", twin_.now, s.tick);
+        both_.same("place", std::tuple(twin_.p.x, twin_.p.y), std::tuple(s.p.x, s.p.y));
+        if (ran_ && s.tick > 0)
+            both_.same("output", std::tuple(last_.x, last_.y), std::tuple(s.output.a[0], s.output.a[1]));
+        const auto of = [](const auto& e) { return std::tuple(e.count(), e.travel, e.slow2); };
+        both_.same("encoder 0", of(twin_.encoders[0]), of(s.encoders.counters[0]));
+        both_.same("encoder 1", of(twin_.encoders[1]), of(s.encoders.counters[1]));
+        both_.same_elements("stored count", twin_.stored, s.encoders.stored);
+        std::array<std::int32_t, 4> locations{};
+        std::int64_t filled = 0;
         for (std::size_t i = 0; i < 4; ++i) {
-            EXPECT_EQ(s.encoders.stored[i], twin_.stored[i]) << i;
-            EXPECT_EQ(s.mcbsp.memory[i], twin_.locations[i].value_or(0)) << i;
-            EXPECT_EQ(s.mcbsp.filled >> i & 1, twin_.locations[i].has_value()) << "location " << i;
+            locations[i] = twin_.locations[i].value_or(0);
+            filled |= std::int64_t{twin_.locations[i].has_value()} << i;
         }
-        for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(s.mcbsp.typed[i], twin_.typed[i]) << i;
-        EXPECT_EQ(static_cast<std::uint32_t>(s.flags.marking_info), twin_.marking);
-        EXPECT_EQ(static_cast<std::uint32_t>(s.flags.startstop_info), twin_.startstop);
-        for (std::size_t i = 0; i < 32; ++i) EXPECT_EQ(s.flags.flag_tick[i], twin_.flag_tick[i]) << "bit " << i;
-        EXPECT_EQ(card_.busy(), twin_.running);
-        EXPECT_EQ(s.lists.current, twin_.current);
-        EXPECT_EQ(s.lists.ended_unwritten, twin_.unwritten);
-        EXPECT_EQ(s.io, twin_.io);
-        EXPECT_EQ(s.laser.on != 0, twin_.laser);
-        same_recording();
-        return !::testing::Test::HasFailure();
+        both_.same_elements("location", locations, s.mcbsp.memory);
+        both_.same("locations with a value", filled, s.mcbsp.filled & 15);
+        both_.same_elements("typed value", twin_.typed, s.mcbsp.typed);
+        both_.same("marking info", twin_.marking, static_cast<std::uint32_t>(s.flags.marking_info));
+        both_.same("start and stop info", twin_.startstop, static_cast<std::uint32_t>(s.flags.startstop_info));
+        both_.same_elements("tick of bit", twin_.flag_tick, s.flags.flag_tick);
+        both_.same("busy", twin_.running, card_.busy());
+        both_.same("command", twin_.current, s.lists.current);
+        both_.same("ended unwritten", twin_.unwritten, s.lists.ended_unwritten);
+        both_.same("ports", twin_.io, s.io);
+        both_.same("laser", twin_.laser, s.laser.on != 0);
+        compare_recordings();
     }
 
-    void same_recording() {
+    void compare_recordings() {
         const Recording& r = card_.recording();
-        EXPECT_EQ(r.period, twin_.period);
-        ASSERT_EQ(r.count, static_cast<std::int64_t>(twin_.rows.size()));
-        for (std::size_t i = 0; i < twin_.rows.size(); ++i)
-            for (std::size_t k = 0; k < twin_.rows[i].size(); ++k)
-                ASSERT_EQ(card_.recorded(static_cast<std::int64_t>(k), static_cast<std::int64_t>(i)), twin_.rows[i][k])
-                    << "sample " << i << " of signal " << r.signals[k];
+        both_.same("period of the recording", twin_.period, r.period);
+        both_.same("recorded samples", static_cast<std::int64_t>(twin_.rows.size()), r.count);
+        for (std::size_t i = 0; i < twin_.rows.size() && both_.equal(); ++i)
+            for (std::size_t k = 0; k < twin_.rows[i].size(); ++k) {
+                const auto recorded = card_.recorded(static_cast<std::int64_t>(k), static_cast<std::int64_t>(i));
+                if (recorded != twin_.rows[i][k])
+                    both_.same(fmt::format("sample {} of signal {}", i, r.signals[k]), twin_.rows[i][k], recorded);
+            }
     }
 
     const Job& job_;
+    oracle::Comparison& both_;
     Engine card_;
     twin::Twin twin_;
     JobInputs inputs_;
@@ -355,16 +375,16 @@ class Pair {
     bool ran_ = false;
 };
 
-TEST(Rtc5Oracle, RandomJobsGiveTheSameOutputsOnTheCardAndItsTwin) {
-    const std::uint64_t seed = seed_from_environment(20250);
-    const auto count = static_cast<int>(cases("MOTIONRACK_PROGRAMS", 1500));
-    std::cout << "MOTIONRACK_SEED=" << seed << ", " << count << " jobs\n";
-    for (int i = 0; i < count; ++i) {
-        const std::uint64_t own = seed + static_cast<std::uint64_t>(i);
-        const Job job = JobMaker(own).make();
-        ASSERT_TRUE(Pair(job).run()) << "MOTIONRACK_SEED=" << own << " MOTIONRACK_PROGRAMS=1 runs this job alone";
-    }
+}  // namespace
+
+void run_both(const Job& job, oracle::Comparison& both) {
+    Pair(job, both).run();
+    both.count("acts", job.acts.size());
 }
 
-}  // namespace
+TEST(Rtc5Oracle, RandomJobsGiveTheSameOutputsOnTheCardAndItsTwin) {
+    oracle::compare({0, oracle::programs(1500), 20250},
+                    [](std::uint64_t seed, std::uint64_t number) { return JobMaker(seed + number).make(); });
+}
+
 }  // namespace motionrack::rtc5
