@@ -174,16 +174,10 @@ class Bench {
     static Instant instant_of(const Op& op) { return op.tick * one_tick + (op.between ? one_tick / 2 : Duration{0}); }
 
     sim::WireId wire_of(const Op& op) const {
-        switch (op.kind) {
-            case Op::Kind::emergency:
-                return emgn_;
-            case Op::Kind::step:
-                return step_;
-            case Op::Kind::encoder:
-                return encoder_wires_[op.axis][op.offset];
-            default:
-                return wires_[op.axis][static_cast<int>(op.pin)];
-        }
+        if (op.kind == Op::Kind::emergency) return emgn_;
+        if (op.kind == Op::Kind::step) return step_;
+        if (op.kind == Op::Kind::encoder) return encoder_wires_[op.axis][op.offset];
+        return wires_[op.axis][static_cast<int>(op.pin)];
     }
 
     // `more`: the next op changes a wire at the same instant, so the tick must not be executed yet.

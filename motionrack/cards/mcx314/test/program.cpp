@@ -151,35 +151,17 @@ class Maker : private ExtensionActions {
     }
     void rewrite() {
         const unsigned some = axes();
-        switch (random_.between(0, 9)) {
-            case 0:
-                data(some, 0x04, start_speed());
-                break;
-            case 1:
-                data(some, 0x02, accel());
-                break;
-            case 2:
-                data(some, 0x03, accel());
-                break;
-            case 3:
-                data(some, 0x01, jerk());
-                break;
-            case 4:
-                data(some, 0x0D, random_.between(0, 60));
-                break;
-            case 5:
-                data(some, 0x07, pulses());
-                break;
-            case 6:
-                data(some, 0x06, pulses());
-                break;
-            case 7:
-                data(some, 0x00, range());
-                break;
-            default:
-                data(some, 0x05, speed(start_speed()));
-                break;
-        }
+        static constexpr int codes[] = {0x04, 0x02, 0x03, 0x01, 0x0D, 0x07, 0x06, 0x00, 0x05, 0x05};
+        const int code = random_.of(codes);
+        data(some, code, value_of(code));
+    }
+    std::int64_t value_of(int code) {
+        if (code == 0x00) return range();
+        if (code == 0x01) return jerk();
+        if (code == 0x02 || code == 0x03) return accel();
+        if (code == 0x04) return start_speed();
+        if (code == 0x05) return speed(start_speed());
+        return code == 0x0D ? random_.between(0, 60) : pulses();
     }
     void wire() {
         const int axis = static_cast<int>(random_.between(0, 3));

@@ -64,30 +64,15 @@ class Pins {
 
 // Returns what is read, 0 for others.
 std::uint16_t apply(Twin& twin, const Op& op) {
-    switch (op.kind) {
-        case Op::Kind::write:
-            twin.write(op.offset, op.value);
-            break;
-        case Op::Kind::read:
-            return twin.read(op.offset);
-        case Op::Kind::write_byte:
-            twin.write_byte(op.offset, static_cast<std::uint8_t>(op.value));
-            break;
-        case Op::Kind::read_byte:
-            return twin.read_byte(op.offset);
-        case Op::Kind::encoder:
-            twin.set_encoder(op.axis, op.offset, op.value != 0);
-            break;
-        case Op::Kind::step:
-            twin.set_step(op.value != 0);
-            break;
-        case Op::Kind::input:
-            twin.set_input(op.axis, op.pin, op.value != 0);
-            break;
-        case Op::Kind::emergency:
-            twin.set_emergency(op.value != 0);
-            break;
-    }
+    const bool level = op.value != 0;
+    if (op.kind == Op::Kind::read) return twin.read(op.offset);
+    if (op.kind == Op::Kind::read_byte) return twin.read_byte(op.offset);
+    if (op.kind == Op::Kind::write) twin.write(op.offset, op.value);
+    if (op.kind == Op::Kind::write_byte) twin.write_byte(op.offset, static_cast<std::uint8_t>(op.value));
+    if (op.kind == Op::Kind::encoder) twin.set_encoder(op.axis, op.offset, level);
+    if (op.kind == Op::Kind::step) twin.set_step(level);
+    if (op.kind == Op::Kind::input) twin.set_input(op.axis, op.pin, level);
+    if (op.kind == Op::Kind::emergency) twin.set_emergency(level);
     return 0;
 }
 
