@@ -62,27 +62,13 @@ struct World final : sim::Kernel::WireObserver {
     Sight apply(const Op& op) {
         Sight sight;
         const Instant now = kernel.now();
-        switch (op.kind) {
-            case Op::out:
-                card.out(static_cast<std::uint8_t>(op.a), static_cast<std::uint8_t>(op.b));
-                break;
-            case Op::in:
-                sight.value = card.in(static_cast<std::uint8_t>(op.a));
-                break;
-            case Op::wire:
-                kernel.set_wire(inputs[op.a], static_cast<int>(op.b));
-                break;
-            case Op::law:
-                pulses.drive(Duration{op.a}, op.b);
-                break;
-            case Op::hang:
-                card.fault("watchdog.hang", static_cast<double>(op.a), now);
-                break;
-            case Op::broken:
-                constexpr const char* names[] = {"", "", "", "ref.broken", "ems.broken", "esr.broken", "esl.broken"};
-                card.fault(names[op.a], static_cast<double>(op.b), now);
-                break;
-        }
+        constexpr const char* faults[] = {"", "", "", "ref.broken", "ems.broken", "esr.broken", "esl.broken"};
+        if (op.kind == Op::out) card.out(static_cast<std::uint8_t>(op.a), static_cast<std::uint8_t>(op.b));
+        if (op.kind == Op::in) sight.value = card.in(static_cast<std::uint8_t>(op.a));
+        if (op.kind == Op::wire) kernel.set_wire(inputs[op.a], static_cast<int>(op.b));
+        if (op.kind == Op::law) pulses.drive(Duration{op.a}, op.b);
+        if (op.kind == Op::hang) card.fault("watchdog.hang", static_cast<double>(op.a), now);
+        if (op.kind == Op::broken) card.fault(faults[op.a], static_cast<double>(op.b), now);
         run(now);
         sight.status = card.peek(ports::STAT);
         sight.latch = card.peek(ports::DATA);

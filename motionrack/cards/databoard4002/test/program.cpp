@@ -94,60 +94,32 @@ class Maker {
     }
 
     void action() {
-        switch (below(22)) {
-            case 0:
-            case 1:
-            case 2:
-                write(3, 'P'), number(distance(), 3);
-                break;
-            case 3:
-            case 4:
-                write(3, 'N'), number(distance(), 3);
-                break;
-            case 5:
-            case 6:
-                write(3, 'R'), number(speed(), 2);
-                break;
-            case 7:
-            case 8:
-            case 9:
-            case 10:
-                write(3, 'G');
-                wait(below(4) * below(20'000));
-                break;
-            case 11:
-                write(3, "PDRPDR"[below(6)]);
-                for (std::uint64_t i = below(5); i > 0; --i) read(0);
-                break;
-            case 12:
-            case 13:
-            case 14:
-                write(5, pick({0x01, 0x21, 0x81, 0xE7, 0x27, 0x02, 0x04, 0x06, 0x40, static_cast<int>(below(256))}));
-                if (one_in(2)) read(0);
-                break;
-            case 15:
-                write(3, 'D'), number(distance() / 8, 3), write(3, 'L');
-                wait(below(30'000));
-                break;
-            case 16:
-                write(3, "AQMOVWILLQ"[below(10)]);
-                if (one_in(2)) read(0);
-                break;
-            case 17:
-                write(static_cast<int>(below(8)), static_cast<std::int64_t>(below(256)));
-                break;
-            case 18:
-                if (one_in(6))
-                    read(7);
-                else if (one_in(4))
-                    write(4, 0);
-                else if (one_in(4))
-                    table();
-                else
-                    read(static_cast<int>(below(3)));
-                break;
-            default:
-                for (std::uint64_t i = below(6); i > 0; --i) disturbance();
+        const std::uint64_t roll = below(22);
+        if (roll < 3) {
+            write(3, 'P'), number(distance(), 3);
+        } else if (roll < 5) {
+            write(3, 'N'), number(distance(), 3);
+        } else if (roll < 7) {
+            write(3, 'R'), number(speed(), 2);
+        } else if (roll < 11) {
+            write(3, 'G'), wait(below(4) * below(20'000));
+        } else if (roll < 12) {
+            write(3, "PDRPDR"[below(6)]);
+            for (std::uint64_t i = below(5); i > 0; --i) read(0);
+        } else if (roll < 15) {
+            write(5, pick({0x01, 0x21, 0x81, 0xE7, 0x27, 0x02, 0x04, 0x06, 0x40, static_cast<int>(below(256))}));
+            if (one_in(2)) read(0);
+        } else if (roll < 16) {
+            write(3, 'D'), number(distance() / 8, 3), write(3, 'L'), wait(below(30'000));
+        } else if (roll < 17) {
+            write(3, "AQMOVWILLQ"[below(10)]);
+            if (one_in(2)) read(0);
+        } else if (roll < 18) {
+            write(static_cast<int>(below(8)), static_cast<std::int64_t>(below(256)));
+        } else if (roll < 19) {
+            one_in(6) ? read(7) : one_in(4) ? write(4, 0) : one_in(4) ? table() : read(static_cast<int>(below(3)));
+        } else {
+            for (std::uint64_t i = below(6); i > 0; --i) disturbance();
         }
     }
 
@@ -207,26 +179,13 @@ Outcome run_on_twin(const Program& program) {
             note_outputs(twin, last, out.changes);
         }
         Sight sight;
-        switch (op.kind) {
-            case Op::out:
-                twin.write(static_cast<int>(op.a), static_cast<int>(op.b));
-                break;
-            case Op::in:
-                sight.value = twin.read(static_cast<int>(op.a));
-                break;
-            case Op::wire:
-                twin.set(static_cast<In>(op.a), static_cast<int>(op.b));
-                break;
-            case Op::law:
-                twin.law(op.a, static_cast<int>(op.b));
-                break;
-            case Op::hang:
-                twin.hang(op.a != 0);
-                break;
-            case Op::broken:
-                twin.break_wire(static_cast<In>(op.a), op.b != 0);
-                break;
-        }
+        const int a = static_cast<int>(op.a), b = static_cast<int>(op.b);
+        if (op.kind == Op::out) twin.write(a, b);
+        if (op.kind == Op::in) sight.value = twin.read(a);
+        if (op.kind == Op::wire) twin.set(static_cast<In>(a), b);
+        if (op.kind == Op::law) twin.law(op.a, b);
+        if (op.kind == Op::hang) twin.hang(a != 0);
+        if (op.kind == Op::broken) twin.break_wire(static_cast<In>(a), b != 0);
         sight.status = twin.status();
         sight.latch = twin.latch();
         sight.position = twin.position();
