@@ -130,23 +130,12 @@ class Maker : private ExtensionActions {
         for (std::int64_t n = random_.between(1, 12); n > 0; --n) {
             now_ += random_.between(0, program_.ticks / 10);
             between_ = random_.one_in(2);
-            switch (random_.between(0, 7)) {
-                case 0:
-                    data(axis, 0x06, random_.between(0, max_pulses));
-                    break;
-                case 1:
-                    data(axis, 0x0D, random_.between(0, 50));
-                    break;
-                case 2:
-                    data(axis, 0x02, accel());
-                    break;
-                case 3:
-                    command(axis, random_.one_in(2) ? 0x26 : 0x12), read(12);
-                    break;
-                default:
-                    data(axis, 0x05, speed(start));
-                    break;
-            }
+            const std::int64_t roll = random_.between(0, 7);
+            if (roll == 0) data(axis, 0x06, random_.between(0, max_pulses));
+            if (roll == 1) data(axis, 0x0D, random_.between(0, 50));
+            if (roll == 2) data(axis, 0x02, accel());
+            if (roll == 3) command(axis, random_.one_in(2) ? 0x26 : 0x12), read(12);
+            if (roll > 3) data(axis, 0x05, speed(start));
         }
     }
     void rewrite() {
@@ -196,49 +185,33 @@ class Maker : private ExtensionActions {
     }
     void modes() {
         const unsigned some = axes();
-        switch (random_.between(0, 3)) {
-            case 0: {
-                const std::int64_t enables = random_.between(0, 255) & random_.between(0, 255) & 0xAA;
-                mode(some, 1,
-                     random_.between(0, 255) << 8 | enables | (random_.one_in(8) ? random_.between(0, 255) & 0x55 : 0));
-                break;
-            }
-            case 1: {
-                std::int64_t bits = random_.between(0, 0xFFFF) & 0xEFE7 & ~0x5018;
-                if (random_.one_in(12)) bits |= random_.between(0, 0xFFFF) & 0x5018;
-                mode(some, 2, bits);
-                break;
-            }
-            default:
-                mode(some, 3, drive_mode());
-                break;
+        const std::int64_t roll = random_.between(0, 3);
+        if (roll == 0) {
+            const std::int64_t enables = random_.between(0, 255) & random_.between(0, 255) & 0xAA;
+            mode(some, 1,
+                 random_.between(0, 255) << 8 | enables | (random_.one_in(8) ? random_.between(0, 255) & 0x55 : 0));
+        } else if (roll == 1) {
+            std::int64_t bits = random_.between(0, 0xFFFF) & 0xEFE7 & ~0x5018;
+            if (random_.one_in(12)) bits |= random_.between(0, 0xFFFF) & 0x5018;
+            mode(some, 2, bits);
+        } else {
+            mode(some, 3, drive_mode());
         }
     }
     void poll() {
         const unsigned axis = 1u << random_.between(0, 3);
-        switch (random_.between(0, 6)) {
-            case 0:
-                read(0);
-                break;
-            case 6:  // as in an interrupt handler
-                for (unsigned a = 0; a < 4; ++a) {
-                    command(1u << a, 0x0F);
-                    read(6);
-                }
-                if (random_.one_in(2)) command(0, 0x3D);
-                break;
-            case 1:
-                command(axis, 0x0F);
-                read(2 * static_cast<int>(random_.between(1, 3)));
-                break;
-            case 2:
-                read(random_.one_in(2) ? 8 : 10);
-                break;
-            default:
-                command(axis, static_cast<int>(random_.between(0x10, 0x13)));
-                read(12);
-                read(14);
-                break;
+        const std::int64_t roll = random_.between(0, 6);
+        if (roll == 0) {
+            read(0);
+        } else if (roll == 1) {
+            command(axis, 0x0F), read(2 * static_cast<int>(random_.between(1, 3)));
+        } else if (roll == 2) {
+            read(random_.one_in(2) ? 8 : 10);
+        } else if (roll < 6) {
+            command(axis, static_cast<int>(random_.between(0x10, 0x13))), read(12), read(14);
+        } else {  // as in an interrupt handler
+            for (unsigned a = 0; a < 4; ++a) command(1u << a, 0x0F), read(6);
+            if (random_.one_in(2)) command(0, 0x3D);
         }
     }
     void read_everything() {

@@ -19,41 +19,16 @@ class ExtensionActions : protected Paths {
     }
 
     void extension() {
-        switch (random_.between(0, 12)) {
-            case 12:
-                turn_wheel();
-                break;
-            case 0:
-                data(axes(), 0x60, extension_mode());
-                break;
-            case 1:
-                data(axes(), 0x64, action_mode());
-                break;
-            case 2:
-                command(axes(), random_.one_in(2) ? 0x63 : 0x65);
-                break;
-            case 3:
-                data(axes(), random_.one_in(2) ? 0x61 : 0x0E, random_.one_in(2) ? slow_speed() : jerk());
-                break;
-            case 4:
-                command(1u << random_.between(0, 3), 0x14);
-                read(12);
-                read(14);
-                break;
-            case 5:
-            case 6:
-                bounce();
-                break;
-            case 7:
-                turn_ring();
-                break;
-            case 8:
-                act();
-                break;
-            default:
-                search();
-                break;
-        }
+        const std::int64_t roll = random_.between(0, 12);
+        if (roll == 0) return data(axes(), 0x60, extension_mode());
+        if (roll == 1) return data(axes(), 0x64, action_mode());
+        if (roll == 2) return command(axes(), random_.one_in(2) ? 0x63 : 0x65);
+        if (roll == 3) return data(axes(), random_.one_in(2) ? 0x61 : 0x0E, random_.one_in(2) ? slow_speed() : jerk());
+        if (roll == 4) return command(1u << random_.between(0, 3), 0x14), read(12), read(14);
+        if (roll < 7) return bounce();
+        if (roll == 7) return turn_ring();
+        if (roll == 8) return act();
+        roll == 12 ? turn_wheel() : search();
     }
 
   private:
