@@ -115,47 +115,20 @@ void World::carry_out(const Op& op) {
             if (info.name == std::string_view(field))
                 cards[op.who]->write(offset("CONTROL"), static_cast<std::uint16_t>(info.mask));
     };
+    Card& card = *cards[op.who];
     bool done = true;
-    switch (op.kind) {
-        case Op::poll:
-            break;
-        case Op::off:
-            done = cards[op.who]->fault("off", static_cast<double>(op.a), now);
-            break;
-        case Op::reset:
-            if (op.a == 0)
-                control("RESET");
-            else
-                done = cards[op.who]->fault("reset", 1, now);
-            break;
-        case Op::late:
-            done = cards[op.who]->fault("late", ns, now);
-            break;
-        case Op::miss_edges:
-            done = cards[op.who]->fault("miss_edge", static_cast<double>(op.a), now);
-            break;
-        case Op::jitter:
-            done = cards[op.who]->fault("jitter", ns, now);
-            break;
-        case Op::no_latch:
-            done = decoder->fault("no_latch", static_cast<double>(op.a), now);
-            break;
-        case Op::force:
-            kernel.force(wire(op.line, op.bit), static_cast<int>(op.a));
-            break;
-        case Op::release:
-            kernel.release(wire(op.line, op.bit));
-            break;
-        case Op::claim:
-            control("CLAIM");
-            break;
-        case Op::give_back:
-            control("RELEASE");
-            break;
-        case Op::clear:
-            control("CLEAR_ERRORS");
-            break;
-    }
+    if (op.kind == Op::off) done = card.fault("off", static_cast<double>(op.a), now);
+    if (op.kind == Op::reset && op.a == 0) control("RESET");
+    if (op.kind == Op::reset && op.a != 0) done = card.fault("reset", 1, now);
+    if (op.kind == Op::late) done = card.fault("late", ns, now);
+    if (op.kind == Op::miss_edges) done = card.fault("miss_edge", static_cast<double>(op.a), now);
+    if (op.kind == Op::jitter) done = card.fault("jitter", ns, now);
+    if (op.kind == Op::no_latch) done = decoder->fault("no_latch", static_cast<double>(op.a), now);
+    if (op.kind == Op::force) kernel.force(wire(op.line, op.bit), static_cast<int>(op.a));
+    if (op.kind == Op::release) kernel.release(wire(op.line, op.bit));
+    if (op.kind == Op::claim) control("CLAIM");
+    if (op.kind == Op::give_back) control("RELEASE");
+    if (op.kind == Op::clear) control("CLEAR_ERRORS");
     MOTIONRACK_ASSERT(done);
     settle();
 }

@@ -120,24 +120,13 @@ Ticks Maker::instant() {
     const BusTiming timing{Duration{card.t1}, Duration{card.t2}, Duration{card.t3}, Duration{card.clock}};
     const Ticks begin = card.offset + below(program_.end / card.period + 1) * card.period;
     const Ticks frame = timing.frame_time(card.words).count();
-    Ticks at = 0;
-    switch (below(5)) {
-        case 0:
-            at = below(program_.end + 1);
-            break;
-        case 1:
-            at = begin + below(frame + 1) / grain_ * grain_;
-            break;
-        case 2:
-            at = begin + timing.sample_at(static_cast<int>(below(card.words))).count() + (one_in(2) ? 0 : time(-1, 1));
-            break;
-        case 3:
-            at = begin + (one_in(2) ? frame : card.period / 2);
-            break;
-        default:
-            at = begin;
-            break;
-    }
+    const std::int64_t roll = below(5);
+    Ticks at = begin;
+    if (roll == 0) at = below(program_.end + 1);
+    if (roll == 1) at = begin + below(frame + 1) / grain_ * grain_;
+    if (roll == 2)
+        at = begin + timing.sample_at(static_cast<int>(below(card.words))).count() + (one_in(2) ? 0 : time(-1, 1));
+    if (roll == 3) at = begin + (one_in(2) ? frame : card.period / 2);
     return std::clamp<Ticks>(at, 0, program_.end);
 }
 
@@ -185,43 +174,18 @@ Twin twin_of(const Program& program, bool every_tick) {
 
 void carry_out(Twin& twin, const Op& op) {
     twin.run_to(op.at);
-    switch (op.kind) {
-        case Op::poll:
-            break;
-        case Op::off:
-            twin.set_off(op.who, op.a != 0);
-            break;
-        case Op::reset:
-            twin.reset(op.who);
-            break;
-        case Op::late:
-            twin.set_late(op.who, op.a);
-            break;
-        case Op::miss_edges:
-            twin.set_miss_edges(op.who, static_cast<int>(op.a));
-            break;
-        case Op::jitter:
-            twin.set_jitter(op.who, op.a);
-            break;
-        case Op::no_latch:
-            twin.set_no_latch(op.who, op.a != 0);
-            break;
-        case Op::force:
-            twin.force(op.line, op.bit, static_cast<std::uint32_t>(op.a));
-            break;
-        case Op::release:
-            twin.release(op.line, op.bit);
-            break;
-        case Op::claim:
-            twin.claim(op.who);
-            break;
-        case Op::give_back:
-            twin.give_back(op.who);
-            break;
-        case Op::clear:
-            twin.clear_errors(op.who);
-            break;
-    }
+    const bool on = op.a != 0;
+    if (op.kind == Op::off) twin.set_off(op.who, on);
+    if (op.kind == Op::reset) twin.reset(op.who);
+    if (op.kind == Op::late) twin.set_late(op.who, op.a);
+    if (op.kind == Op::miss_edges) twin.set_miss_edges(op.who, static_cast<int>(op.a));
+    if (op.kind == Op::jitter) twin.set_jitter(op.who, op.a);
+    if (op.kind == Op::no_latch) twin.set_no_latch(op.who, on);
+    if (op.kind == Op::force) twin.force(op.line, op.bit, static_cast<std::uint32_t>(op.a));
+    if (op.kind == Op::release) twin.release(op.line, op.bit);
+    if (op.kind == Op::claim) twin.claim(op.who);
+    if (op.kind == Op::give_back) twin.give_back(op.who);
+    if (op.kind == Op::clear) twin.clear_errors(op.who);
 }
 
 std::string text_of(const Program& program) {
