@@ -70,94 +70,57 @@ void put_something(Feed& feed, Engine* const (&cards)[2], Verdict& verdict) {
         if (!card->put(*command)) static_cast<void>(card->set_start_list(1 + static_cast<int>(verdict.commands % 3)));
 }
 
+int small_of(std::uint32_t word) {
+    return static_cast<int>(word % 6) - 1;
+}
+
+void control_lists(std::uint32_t what, Engine& c, std::uint32_t word, std::uint32_t other, double a) {
+    const int small = small_of(word);
+    if (what == 0) static_cast<void>(c.execute_list(small));
+    if (what == 1) c.stop_execution();
+    if (what == 2) c.pause_list();
+    if (what == 3) c.restart_list();
+    if (what == 11) c.set_control_mode(word);
+    if (what == 12) static_cast<void>(c.set_ext_start_delay(static_cast<std::int32_t>(word) - 30000, small));
+    if (what == 13) c.external_start();
+    if (what == 14) c.receive(word << 16 | other);
+    if (what == 15) c.set_count(small & 1, static_cast<std::int32_t>(word << 16 | other));
+    if (what == 16) c.auto_change();
+    if (what == 17) word % 2 ? c.start_loop() : c.quit_loop();
+    if (what == 18) static_cast<void>(c.set_mcbsp_in(small, a));
+    if (what == 19) static_cast<void>(c.load_list(word, other % 120));
+    if (what == 20) static_cast<void>(c.load_sub(word % 1200));
+    if (what == 25) static_cast<void>(c.set_start_list(static_cast<std::uint32_t>(small), other % 120));
+}
+
+void control_outputs(std::uint32_t what, Engine& c, std::uint32_t word, std::uint32_t other, double a, double b) {
+    const int small = small_of(word);
+    if (what == 4) static_cast<void>(c.goto_xy(a, b));
+    if (what == 5) static_cast<void>(c.set_matrix(small, {a, b, 1, 0}, small));
+    if (what == 6) static_cast<void>(c.set_offset(small, {a, b}, small));
+    if (what == 7) static_cast<void>(c.set_hi(small, {a, 1}, {b, 0}));
+    if (what == 8) static_cast<void>(c.set_rot_center({a, b}));
+    if (what == 9) static_cast<void>(c.simulate_encoder(small));
+    if (what == 10) c.set_tracking_error(static_cast<std::uint16_t>(word), 0);
+    if (what == 21) word % 2 ? c.disable_laser() : c.enable_laser();
+    if (what == 22) {
+        static_cast<void>(c.set_mcbsp_out(std::array<std::uint32_t, 2>{word % 48, other % 48}));
+        static_cast<void>(c.mcbsp_sent());
+    }
+    if (what == 23) {
+        static_cast<void>(c.get_value(word % 60));
+        static_cast<void>(c.get_mcbsp());
+    }
+    if (what == 24) static_cast<void>(word % 2 ? c.set_mcbsp_x(a) : c.set_mcbsp_rot(b));
+}
+
 void control_something(Feed& feed, Engine* const (&cards)[2]) {
     const std::uint32_t what = feed.below(26);
     const double a = number(feed), b = number(feed);
     const std::uint32_t word = feed.word(), other = feed.word();
-    const int small = static_cast<int>(word % 6) - 1;
     for (Engine* c : cards) {
-        switch (what) {
-            case 0:
-                static_cast<void>(c->execute_list(small));
-                break;
-            case 1:
-                c->stop_execution();
-                break;
-            case 2:
-                c->pause_list();
-                break;
-            case 3:
-                c->restart_list();
-                break;
-            case 4:
-                static_cast<void>(c->goto_xy(a, b));
-                break;
-            case 5:
-                static_cast<void>(c->set_matrix(small, {a, b, 1, 0}, small));
-                break;
-            case 6:
-                static_cast<void>(c->set_offset(small, {a, b}, small));
-                break;
-            case 7:
-                static_cast<void>(c->set_hi(small, {a, 1}, {b, 0}));
-                break;
-            case 8:
-                static_cast<void>(c->set_rot_center({a, b}));
-                break;
-            case 9:
-                static_cast<void>(c->simulate_encoder(small));
-                break;
-            case 10:
-                c->set_tracking_error(static_cast<std::uint16_t>(word), 0);
-                break;
-            case 11:
-                c->set_control_mode(word);
-                break;
-            case 12:
-                static_cast<void>(c->set_ext_start_delay(static_cast<std::int32_t>(word) - 30000, small));
-                break;
-            case 13:
-                c->external_start();
-                break;
-            case 14:
-                c->receive(word << 16 | other);
-                break;
-            case 15:
-                c->set_count(small & 1, static_cast<std::int32_t>(word << 16 | other));
-                break;
-            case 16:
-                c->auto_change();
-                break;
-            case 17:
-                word % 2 ? c->start_loop() : c->quit_loop();
-                break;
-            case 18:
-                static_cast<void>(c->set_mcbsp_in(small, a));
-                break;
-            case 19:
-                static_cast<void>(c->load_list(word, other % 120));
-                break;
-            case 20:
-                static_cast<void>(c->load_sub(word % 1200));
-                break;
-            case 21:
-                word % 2 ? c->disable_laser() : c->enable_laser();
-                break;
-            case 22:
-                static_cast<void>(c->set_mcbsp_out(std::array<std::uint32_t, 2>{word % 48, other % 48}));
-                static_cast<void>(c->mcbsp_sent());
-                break;
-            case 23:
-                static_cast<void>(c->get_value(word % 60));
-                static_cast<void>(c->get_mcbsp());
-                break;
-            case 24:
-                static_cast<void>(word % 2 ? c->set_mcbsp_x(a) : c->set_mcbsp_rot(b));
-                break;
-            default:
-                static_cast<void>(c->set_start_list(static_cast<std::uint32_t>(small), other % 120));
-                break;
-        }
+        control_lists(what, *c, word, other, a);
+        control_outputs(what, *c, word, other, a, b);
     }
 }
 
