@@ -93,6 +93,14 @@ auto steps_of(Program& program) -> decltype(std::tie(program.ops)) {
 }
 
 template <class Program>
+std::string text_of_snapshot(const Program& program) {
+    if constexpr (requires { program.snapshot_at; })
+        if (program.snapshot_at != never)
+            return fmt::format("its state is saved and restored at step {}\n", program.snapshot_at);
+    return "";
+}
+
+template <class Program>
 Comparison comparison_of(const Program& program) {
     Comparison out;
     run_both(program, out);
@@ -172,7 +180,7 @@ void compare(const Series& series, const Make& make) {
             const auto small = shrink(program, [](const auto& p) { return !comparison_of(p).equal(); });
             FAIL() << "the card and its twin differ in program " << number << " of seed " << seed << ":\n"
                    << both.differences() << "and shortened:\n"
-                   << comparison_of(small).differences() << text_of(small)
+                   << comparison_of(small).differences() << text_of_snapshot(small) << text_of(small)
                    << "To run it again: " << command_of(seed, number, series);
         }
         for (const auto& [what, count] : both.counts()) counts[what] += count;

@@ -212,10 +212,9 @@ void run_both(const Program& program, oracle::Comparison& both) {
 
 std::string text_of(const Program& program) {
     const Strapping& s = program.strapping;
-    return fmt::format("source {}, pass {} ticks, byte {} slices, folding {} from {}{}{}, saved after op {}\n",
-                       static_cast<int>(s.source), s.firmware_pass_ticks, s.byte_slices, s.folding, s.first_pair,
-                       s.up_down ? ", up/down" : "", program.follow_fout ? ", fout followed" : "",
-                       program.snapshot_at) +
+    return fmt::format("source {}, pass {} ticks, byte {} slices, folding {} from {}{}{}\n", static_cast<int>(s.source),
+                       s.firmware_pass_ticks, s.byte_slices, s.folding, s.first_pair, s.up_down ? ", up/down" : "",
+                       program.follow_fout ? ", fout followed" : "") +
            oracle::text_of_steps(program.ops);
 }
 

@@ -204,7 +204,6 @@ std::string text_of(const Program& program) {
     }
     out += "decoder";
     add("scales", program.decoder.scales), add("latch", program.decoder.latch), add("output", program.decoder.output);
-    add("saved after", static_cast<std::int64_t>(program.snapshot_at));
     return out + "\n" + oracle::text_of_steps(program.ops);
 }
 

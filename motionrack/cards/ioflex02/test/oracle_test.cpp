@@ -42,8 +42,8 @@ struct Program {
 };
 
 std::string text_of(const Program& program) {
-    return fmt::format("{}, configured in {} halves, saved at {}\n", program.preloaded ? "preloaded" : "empty",
-                       program.configuration_halves, program.snapshot_at) +
+    return fmt::format("{}, configured in {} halves\n", program.preloaded ? "preloaded" : "empty",
+                       program.configuration_halves) +
            oracle::text_of_steps(program.ops);
 }
 

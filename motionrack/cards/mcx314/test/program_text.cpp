@@ -68,13 +68,13 @@ std::string text_of_command(unsigned value, unsigned wr6, unsigned wr7) {
 std::string text_of(const Program& program) {
     const ChipOptions& options = program.options;
     const Way& way = program.way;
-    std::string out = fmt::format("{}{}{}{}{}{}AO {}, slices {}, saved after op {}, seed {}, program {}, {} ticks\n",
+    std::string out = fmt::format("{}{}{}{}{}{}AO {}, slices {}, seed {}, program {}, {} ticks\n",
                                   program.extended() ? "MCX314As, " : "",
                                   options.slow_drive == SlowDrive::at_sv ? "slow drives at SV, " : "",
                                   options.software_limit == SoftwareLimit::at ? "limits at COMP+, " : "",
                                   way.listen ? "" : "nobody listens to edges, ", way.watch ? "counts watched, " : "",
                                   way.follow ? "pins followed, " : "", options.offset_after_reset, way.slices,
-                                  program.snapshot_at, program.seed, program.number, program.ticks);
+                                  program.seed, program.number, program.ticks);
     unsigned registers[8] = {};
     for (std::size_t i = 0; i < program.ops.size(); ++i) {
         const Op& op = program.ops[i];
