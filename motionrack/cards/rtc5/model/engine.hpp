@@ -42,7 +42,7 @@ class Engine {
     Engine(const Engine&) = delete;
     Engine& operator=(const Engine&) = delete;
 
-    // ---- lists (lists.cpp)
+    // ---- lists
     /// list2 of -1: the remaining memory.
     Result<void> config_list(std::int64_t list1, std::int64_t list2) { return memory_.configure(list1, list2); }
     /// Sets the input pointer of put(): list 1 (odd numbers) or 2 (even numbers), also while the list runs. Positions
@@ -73,7 +73,7 @@ class Engine {
     /// Jumps at the jump speed; only while no list runs.
     Result<void> goto_xy(double x, double y);
 
-    // ---- control commands (control.cpp)
+    // ---- control commands
     /// Resets everything except McBSP location 0, its filling, and the inputs. Lists, tables and settings return to
     /// their power-up state.
     void load_program_file();
