@@ -1,4 +1,5 @@
 // The stop latch of an operated machine: states x sources, refusals, and a reset without motion.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
