@@ -306,7 +306,7 @@ double Chip::rate_of(int a, Instant t) const {
     const bool on_path = (state_.chain >> a & 1u) != 0;
     const int generator = on_path ? state_.master : a;
     const Generator& gen = state_.axis[generator].gen;
-    if (gen.drive == Drive::idle || halted(generator)) return 0;
+    if (gen.drive == Drive::idle || state_.halted(generator)) return 0;
     const std::int64_t ticks = std::max<std::int64_t>(0, tick_of(t) - gen.at - gen.wait);
     const double phase =
         rules::clock_hz * static_cast<double>(gen.walks ? walk(generator, ticks, far).law.speed : gen.speed);

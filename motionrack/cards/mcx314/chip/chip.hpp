@@ -176,7 +176,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void check_final(int a);
     void end(int a);
     void compare(int a);
-    std::uint32_t moved_by(int generator) const;
     void begin_segment(const PathCommand& command);
     void mark_pulse(int a, unsigned stepped, const PulseMoment& at);
     bool path_finished() const;
@@ -212,29 +211,18 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void sample_external_drive(int a);
     bool turns_by_wire(int a) const;
     void sample_wheel(int a);
-    bool by_steps(int a) const;
-    bool halted(int a) const { return by_steps(a) && !state_.stepping; }
     bool ask_step(std::uint32_t by);
     void end_step(int a);
 
     // speed.cpp: the speed step
     bool speed_step(int a);
-    std::int64_t target(const Axis& axis) const;
-    void set_ramp(int a, int ramp);
-    void t_curve(int a);
-    void s_curve(int a);
-    void s_turn_final(int a);
-    void s_advance(int a);
 
     // horizon.cpp: closed form between interesting ticks
     void find_next_tick(int a);
-    std::int64_t ticks_to_speed_event(const Axis& axis) const;
     std::int64_t pulses_to_special(int a) const;
     std::int64_t pulses_until_steps(int generator, int axis, std::int64_t steps) const;
     std::int64_t pulses_to_final(int a) const;
     std::int64_t steps_to_threshold(int a, int direction) const;
-    bool compares(const Axis& axis) const;
-    std::int64_t steps_to_comparison(const Axis& axis, std::int32_t counter, int direction) const;
     bool walks_pulses(int a) const;
     std::int64_t phase_for(const Generator& gen, std::int64_t pulses) const;
     std::int64_t extra_steps(std::int64_t pulses) const;
@@ -243,7 +231,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void skip_to(std::int64_t tick);
     void bring_up(int a, std::int64_t tick);
     void skip_phase(int a, std::int64_t ticks);
-    void skip_speed(Axis& axis, std::int64_t ticks) const;
     void skip_pulses(int a, std::int64_t pulses, const PulseMoment& last);
     void look_at_in_position();
 
@@ -254,7 +241,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void walk_ahead(int a, std::int64_t phase_limit);
     std::int64_t phase_in(int a, std::int64_t ticks) const;
     PulseMoment last_pulse(int a, std::int64_t pulses, std::int64_t ticks) const;
-    static void rest(Generator& gen);
     void bring_along(int a, std::int64_t to);
 
     // edges.cpp
@@ -287,14 +273,10 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void start_path(const PathCommand& command);
     void free_held(unsigned axes);
     void ask_stop(unsigned axes, bool immediate);
-    bool driving(int a) const;
-    bool waits_for_position(int a) const;
-    int first_selected() const;
     std::uint16_t main_status() const;
     std::uint16_t status1(int a) const;
     std::uint16_t status2(int a) const;
     std::uint16_t input_levels(int a) const;
-    bool busy(int a) const;
     std::int64_t coordinate(std::uint32_t v) const;
 
     // Only the MCX314As: extension.cpp
@@ -308,9 +290,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void set_drive_speed(int a) { set_drive_speed(a, state_.extension[a].v); }
     static bool has_extended_command(int code);
     void ask_clear(int a);
-    std::int64_t final_pulses(const Axis& axis) const;
-    std::int64_t pulses_to_weighted_final(const Axis& axis, std::int64_t left) const;
-    std::int64_t pulses_to_half(const Axis& axis) const;
     void avoid_triangle(int a);
     // filters.cpp: inputs, once per tick
     void wake() { state_.next_sample = std::min(state_.next_sample, state_.tick + 1), stale_ = true; }

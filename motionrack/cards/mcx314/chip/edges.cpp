@@ -102,7 +102,7 @@ class LongAxis {
 
 bool Chip::edges_wanted(int a) const {
     bool wanted = false;
-    for_each_axis(moved_by(a) & listened_, [&](int i) { wanted = wanted || outputs_[i].edge_listener; });
+    for_each_axis(state_.moved_by(a) & listened_, [&](int i) { wanted = wanted || outputs_[i].edge_listener; });
     return wanted;
 }
 

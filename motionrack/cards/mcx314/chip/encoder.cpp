@@ -1,5 +1,6 @@
 // EP: a counter for the connected encoder, in closed form, or for the wires xeca and xecb.
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/comparators.hpp>
 
 namespace motionrack::mcx314 {
 

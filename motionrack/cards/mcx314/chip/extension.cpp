@@ -16,7 +16,7 @@ bool Chip::has_extended_command(int code) {
 bool Chip::extended_command(int code, unsigned axes) {
     if (!has_extended_command(code)) return false;
     if (code == cmd::READ_BR) {
-        const std::uint32_t value = state_.extension[first_selected()].buffer;
+        const std::uint32_t value = state_.extension[state_.first_selected()].buffer;
         if (axes == 0) return true;
         state_.rr6 = static_cast<std::uint16_t>(value);
         state_.rr7 = static_cast<std::uint16_t>(value >> 16);
@@ -111,34 +111,6 @@ void Chip::choose_deceleration(int a) {
     const bool automatic = !gen.manual && !gen.s_curve;
     gen.weighted = automatic && gen.own_deceleration && gen.drive != Drive::continuous;
     gen.no_triangle = automatic && gen.drive == Drive::fixed && em::AVTRI.test(state_.extension[a].em6);
-}
-
-/// Estimated pulses of a deceleration from the present speed.
-std::int64_t Chip::final_pulses(const Axis& axis) const {
-    if (!axis.gen.weighted) return axis.gen.accel_pulses;
-    return rules::ceil_div(axis.gen.accel_pulses * rules::used_speed(axis.accel), rules::used_speed(axis.decel));
-}
-
-/// Basic pulses until a weighted final deceleration; `left`: those of the drive without AO.
-std::int64_t Chip::pulses_to_weighted_final(const Axis& axis, std::int64_t left) const {
-    const Generator& gen = axis.gen;
-    if (gen.ramp < 0) return 1;
-    if (gen.ramp == 0) return std::max<std::int64_t>(1, left - final_pulses(axis));
-    // The first k with left - k <= ceil((accel_pulses + k) * a / d).
-    const std::int64_t a = rules::used_speed(axis.accel), d = rules::used_speed(axis.decel);
-    const std::int64_t missing = (left - 1) * d - gen.accel_pulses * a;
-    return missing < 0 ? 1 : missing / (a + d) + 1;
-}
-
-/// Pulses until the ramps take half of the pulses of the drive.
-std::int64_t Chip::pulses_to_half(const Axis& axis) const {
-    const Generator& gen = axis.gen;
-    if (gen.final || gen.ramp <= 0) return far;
-    // The first x = accel_pulses + k with 2 * (x + ceil(x * a / d)) >= P.
-    const std::int64_t half = (std::int64_t{axis.pulses} + 1) / 2;
-    const std::int64_t d = rules::used_speed(axis.decel), a = gen.weighted ? rules::used_speed(axis.accel) : d;
-    const std::int64_t x = half <= 0 ? 0 : (half - 1) * d / (a + d) + 1;
-    return std::max<std::int64_t>(1, x - gen.accel_pulses);
 }
 
 /// Called after a pulse of a drive with triangle prevention: once half of its pulses are used, its speed is capped.

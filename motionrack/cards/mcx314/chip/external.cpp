@@ -75,7 +75,7 @@ void Chip::sample_external_drive(int a) {
     for (int minus = 0; minus < 2; ++minus) {
         const bool high = level(axis, minus ? Pin::exp_minus : Pin::exp_plus);
         const bool rises = high && axis.external_low[minus] > 0;
-        if (falls(axis.external_low[minus], high) && !driving(a) && !axis.hold) {
+        if (falls(axis.external_low[minus], high) && !state_.driving(a) && !axis.hold) {
             start_drive(a, drive_code(continuous ? Drive::continuous : Drive::fixed, minus ? -1 : 1));
             if (continuous) axis.external = static_cast<std::uint8_t>(1 + minus);
         }
@@ -92,16 +92,11 @@ void Chip::sample_wheel(int a) {
     Axis& axis = state_.axis[a];
     const bool high = level(axis, Pin::exp_plus), was_high = axis.external_low[0] == 0;
     axis.external_low[0] = high ? 0 : 2;
-    if (high == was_high || level(axis, Pin::exp_minus) || driving(a) || axis.hold) return;
+    if (high == was_high || level(axis, Pin::exp_minus) || state_.driving(a) || axis.hold) return;
     start_drive(a, drive_code(Drive::fixed, high ? 1 : -1));
 }
 
 // ---- single steps
-
-/// True if each basic pulse of generator `a` needs a request.
-bool Chip::by_steps(int a) const {
-    return state_.axis[a].gen.drive == Drive::path && state_.path.command.steps != 0;
-}
 
 /// True if a step is in progress.
 bool Chip::ask_step(std::uint32_t by) {

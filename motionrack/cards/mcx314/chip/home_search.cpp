@@ -22,7 +22,7 @@ int step_direction(const Extension& ext, int step) {
 
 /// 62h.
 void Chip::start_home(int a) {
-    if (driving(a)) return kernel_.report(id_, drive_ignored, static_cast<std::int64_t>(cmd::HOME), a);
+    if (state_.driving(a)) return kernel_.report(id_, drive_ignored, static_cast<std::int64_t>(cmd::HOME), a);
     state_.extension[a].home = {};
     state_.homing |= 1u << a;
     set_wants(a);

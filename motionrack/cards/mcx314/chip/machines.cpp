@@ -35,7 +35,7 @@ int Chip::drive_state(int a) const {
         return gen.final ? place("drive", "final") : place("drive", "driving");
     }
     if (axis.held_command != 0) return place("drive", "held");
-    return waits_for_position(a) ? place("drive", "in_position") : place("drive", "idle");
+    return state_.waits_for_position(a) ? place("drive", "in_position") : place("drive", "idle");
 }
 
 int Chip::queue_state() const {
@@ -54,7 +54,7 @@ int Chip::stack_state() const {
 }
 
 int Chip::step_state() const {
-    if (state_.chain == 0 || !by_steps(state_.master)) return place("single steps", "free");
+    if (state_.chain == 0 || !state_.by_steps(state_.master)) return place("single steps", "free");
     return state_.stepping ? place("single steps", "stepping") : place("single steps", "waiting");
 }
 

@@ -3,6 +3,7 @@
 //   tick    |--------- plain ticks, pulses in closed form ---------|  event tick, executed by the rules
 //           now                                        speed step, special pulse, input ..
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/comparators.hpp>
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 
 namespace motionrack::mcx314 {
@@ -27,7 +28,7 @@ void Chip::find_next_tick(int a) {
     gen.next_tick = state_.tick + ticks;
     if (gen.next_special >= far) {
         gen.plain = true;
-        if (halted(a)) return rest(gen);
+        if (state_.halted(a)) return wait_for_step(gen);
         if (ticks >= far) gen.next_tick = far;
         if (some_unheard()) walk_ahead(a, far);
         return;
@@ -40,26 +41,11 @@ void Chip::find_next_tick(int a) {
         walk_ahead(a, phase);
 }
 
-std::int64_t Chip::ticks_to_speed_event(const Axis& axis) const {
-    const Generator& gen = axis.gen;
-    if (gen.stopping && gen.speed <= rules::used_speed(axis.start_speed)) return 1;
-    const std::int64_t to = target(axis);
-    if (!gen.s_curve) {
-        const int want = to > gen.speed ? 1 : to < gen.speed ? -1 : 0;
-        if (want != gen.ramp) return 1;
-        if (gen.ramp == 0) return far;
-        return rules::ticks_to_carry(gen.speed_part, ramp_rate(axis, gen));
-    }
-    if (gen.final && !gen.final_seen) return 1;
-    if (gen.ramp == 0) return gen.speed != to ? 1 : far;
-    return rules::s_ticks(gen, jerk_ticks(axis));
-}
-
 /// Basic pulses until one does more than step its axes (>= 1), far if never.
 std::int64_t Chip::pulses_to_special(int a) const {
     const Axis& own = state_.axis[a];
     const Generator& gen = own.gen;
-    if (halted(a)) return far;
+    if (state_.halted(a)) return far;
     if (walks_pulses(a)) return 1;
     std::int64_t pulses = pulses_to_final(a);
     if (gen.no_triangle) pulses = std::min(pulses, pulses_to_half(own));
@@ -123,28 +109,6 @@ std::int64_t Chip::steps_to_threshold(int a, int direction) const {
     if (compares(axis) && !wr2::CMPSL.test(axis.wr2))
         steps = std::min(steps, steps_to_comparison(axis, axis.lp, direction));
     return std::max<std::int64_t>(1, steps);
-}
-
-/// True if interrupts, software limits or outputs depend on the comparisons with COMP+ and COMP-.
-bool Chip::compares(const Axis& axis) const {
-    return axis.comparisons != 0 || wr2::SLMTP.test(axis.wr2) || wr2::SLMTM.test(axis.wr2) ||
-           (axis.outputs_wanted && wr3::OUTSL.test(axis.wr3));
-}
-
-/// Steps in `direction` until a comparison may change (>= 1); counters wrap at 32 bits.
-std::int64_t Chip::steps_to_comparison(const Axis& axis, std::int32_t counter, int direction) const {
-    const std::int64_t at = counter, plus = axis.comp_plus, minus = axis.comp_minus;
-    std::int64_t steps = direction > 0 ? (std::int64_t{1} << 31) - at : at + (std::int64_t{1} << 31) + 1;
-    for (const std::int64_t first : {plus, plus + 1, minus}) {  // comparisons differ below and from `first` on
-        const std::int64_t distance = direction > 0 ? first - at : at - first + 1;
-        if (distance >= 1) steps = std::min(steps, distance);
-    }
-    if (axis.ring) {
-        const std::int64_t place = static_cast<std::uint32_t>(counter);
-        const std::int64_t end = static_cast<std::uint32_t>(axis.comp_plus);
-        steps = std::min(steps, direction > 0 ? end - place + 1 : place + 1);
-    }
-    return steps;
 }
 
 /// Basic pulses of the path until AX(i+1) has made `steps` more steps, far if that is beyond its next event.
@@ -253,16 +217,6 @@ void Chip::bring_up(int a, std::int64_t to) {
     skip_speed(axis, ticks);
     skip_phase(a, ticks);
     axis.gen.at = to;
-}
-
-/// Executes `ticks` of the third step at constant speed; called before skip_phase, which consumes the start ticks.
-void Chip::skip_speed(Axis& axis, std::int64_t ticks) const {
-    Generator& gen = axis.gen;
-    if (gen.ramp == 0) return;
-    ticks -= std::min<std::int64_t>(gen.wait, ticks);
-    if (gen.s_curve) return rules::s_skip(gen, ticks);
-    if (ticks > 0) gen.rate = ramp_rate(axis, gen);
-    gen.speed_part += ticks * gen.rate;
 }
 
 /// Executes `ticks` of the second step, of which only the last may have a pulse that does more than step its axes.

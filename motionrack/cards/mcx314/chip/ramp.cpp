@@ -78,10 +78,10 @@ Walk s_walk(const Speed& from, const Axis& axis, std::int64_t tick_limit, std::i
 bool Chip::may_walk(int a) const {
     const Axis& axis = state_.axis[a];
     const Generator& gen = axis.gen;
-    if (gen.ramp == 0 || (moved_by(a) & (listened_ | state_.following)) != 0) return false;
+    if (gen.ramp == 0 || (state_.moved_by(a) & (listened_ | state_.following)) != 0) return false;
     if (gen.stopping && gen.speed <= rules::used_speed(axis.start_speed)) return false;
     if (gen.s_curve) return !gen.final || gen.final_seen;
-    const std::int64_t to = target(axis);
+    const std::int64_t to = target_speed(axis);
     return (to - gen.speed) * gen.ramp > 0;
 }
 
@@ -90,7 +90,7 @@ Walk Chip::walk(int a, std::int64_t tick_limit, std::int64_t phase_limit) const 
     const Axis& axis = state_.axis[a];
     const Generator& gen = axis.gen;
     return gen.s_curve ? s_walk(gen, axis, tick_limit, phase_limit)
-                       : t_walk(gen, ramp_rate(axis, gen), target(axis), tick_limit, phase_limit);
+                       : t_walk(gen, ramp_rate(axis, gen), target_speed(axis), tick_limit, phase_limit);
 }
 
 /// Combines the step at next_tick with the following steps, if there are any before `phase_limit`.
@@ -105,7 +105,7 @@ void Chip::walk_ahead(int a, std::int64_t phase_limit) {
 /// Sum of the generator's speed in the next `ticks`, none of them after next_tick.
 std::int64_t Chip::phase_in(int a, std::int64_t ticks) const {
     const Generator& gen = state_.axis[a].gen;
-    if (halted(a)) return 0;
+    if (state_.halted(a)) return 0;
     if (!gen.walks) return ticks * gen.speed;
     const Walk so_far = walk(a, ticks, far);
     return so_far.phase + (ticks - so_far.ticks) * so_far.law.speed;
@@ -122,17 +122,11 @@ PulseMoment Chip::last_pulse(int a, std::int64_t pulses, std::int64_t ticks) con
     return {gen.at + until.ticks + more, more * speed - left, speed};
 }
 
-/// Lets a generator wait for a step: until then it neither accumulates nor changes its speed.
-void Chip::rest(Generator& gen) {
-    gen.walks = true;
-    gen.next_tick = far;
-}
-
 /// Advances generator `a` to tick `to` of its combined steps, at most to their end; or it waits.
 void Chip::bring_along(int a, std::int64_t to) {
     Generator& gen = state_.axis[a].gen;
     const std::int64_t ticks = to - gen.at;
-    if (halted(a)) {
+    if (state_.halted(a)) {
         gen.at = to;
         return;
     }

@@ -8,7 +8,7 @@ namespace motionrack::mcx314 {
 
 void Chip::reset() {
     for (int a = 0; a < axes_of_chip; ++a)
-        if (driving(a)) law_changed(a);
+        if (state_.driving(a)) law_changed(a);
     state_.chain = state_.working = state_.in_place = 0;
     for (Axis& axis : state_.axis) {
         Axis fresh;
@@ -130,8 +130,8 @@ void Chip::command(std::uint16_t value) {
             });
     } else if (code == cmd::NOP) {
     } else if (from_to(cmd::READ_LP, cmd::READ_CA)) {
-        if (axes != 0) data_read(code, first_selected());
-        if (extended_ && axes != 0 && code == cmd::READ_LP) note(first_selected(), sm::LPRD);
+        if (axes != 0) data_read(code, state_.first_selected());
+        if (extended_ && axes != 0 && code == cmd::READ_LP) note(state_.first_selected(), sm::LPRD);
     } else if (from_to(cmd::FIXED_PLUS, cmd::CONTINUOUS_MINUS)) {
         drive_command(code, axes);
     } else if (from_to(cmd::LINE2, cmd::BP3)) {
@@ -239,14 +239,10 @@ void Chip::data_read(int code, int a) {
 
 // ---- drive commands
 
-bool Chip::driving(int a) const {
-    return state_.axis[a].gen.drive != Drive::idle || ((state_.chain | state_.homing) >> a & 1u) != 0;
-}
-
 void Chip::drive_command(int code, unsigned axes) {
     for (int a = 0; a < axes_of_chip; ++a) {
         if (!(axes >> a & 1u)) continue;
-        if (driving(a))
+        if (state_.driving(a))
             kernel_.report(id_, drive_ignored, code, a);
         else if (state_.axis[a].hold)
             state_.axis[a].held_command = code;
@@ -307,7 +303,7 @@ PathCommand Chip::captured(int code) const {
 
 bool Chip::any_busy(const PathCommand& command) const {
     for (int a = 0; a < axes_of_chip; ++a)
-        if ((command.mask() >> a & 1u) && driving(a) && !(state_.chain >> a & 1u)) return true;
+        if ((command.mask() >> a & 1u) && state_.driving(a) && !(state_.chain >> a & 1u)) return true;
     return false;
 }
 
@@ -359,7 +355,7 @@ void Chip::free_held(unsigned axes) {
         if (!(axes >> a & 1u) || code == 0) continue;
         axis.held_command = 0;
         if (code < static_cast<int>(cmd::LINE2)) {
-            if (driving(a))
+            if (state_.driving(a))
                 kernel_.report(id_, drive_ignored, code, a);
             else
                 start_drive(a, code);

@@ -4,30 +4,9 @@
 
 namespace motionrack::mcx314 {
 
-/// Returns true if the drive ended.
-bool Chip::speed_step(int a) {
-    Axis& axis = state_.axis[a];
-    Generator& gen = axis.gen;
-    auto at_start_speed = [&] { return gen.speed <= rules::used_speed(axis.start_speed); };
-    if (gen.stopping && at_start_speed()) return end(a), true;
-    const std::int64_t before = gen.speed;
-    if (gen.s_curve)
-        s_curve(a);
-    else
-        t_curve(a);
-    gen.final_seen = gen.final;
-    if (gen.speed != before) law_changed_of(a);
-    if (gen.stopping && at_start_speed()) return end(a), true;
-    return false;
-}
+namespace {
 
-std::int64_t Chip::target(const Axis& axis) const {
-    if (!axis.gen.final) return rules::used_speed(axis.speed);
-    return std::min(axis.gen.speed, rules::used_speed(axis.start_speed));
-}
-
-void Chip::set_ramp(int a, int ramp) {
-    Axis& axis = state_.axis[a];
+void set_ramp(Axis& axis, int ramp) {
     Generator& gen = axis.gen;
     if (gen.ramp != 0 && ramp == 0 && !gen.final) {
         gen.constant = true;
@@ -41,13 +20,12 @@ void Chip::set_ramp(int a, int ramp) {
     gen.ramp = ramp;
 }
 
-void Chip::t_curve(int a) {
-    Axis& axis = state_.axis[a];
+void t_curve(Axis& axis) {
     Generator& gen = axis.gen;
-    const std::int64_t to = target(axis);
+    const std::int64_t to = target_speed(axis);
     const int want = to > gen.speed ? 1 : to < gen.speed ? -1 : 0;
     if (want != gen.ramp) {
-        set_ramp(a, want);
+        set_ramp(axis, want);
         gen.speed_part = 0;
     }
     if (gen.ramp == 0) return;
@@ -57,33 +35,22 @@ void Chip::t_curve(int a) {
         gen.speed_part -= rules::speed_carry;
         gen.speed += gen.ramp;
     }
-    if (gen.speed == target(axis)) {
-        set_ramp(a, 0);
+    if (gen.speed == target_speed(axis)) {
+        set_ramp(axis, 0);
         gen.speed_part = 0;
     }
 }
 
-void Chip::s_curve(int a) {
-    Generator& gen = state_.axis[a].gen;
-    if (gen.final && !gen.final_seen) s_turn_final(a);
-    const std::int64_t to = target(state_.axis[a]);
-    if (gen.ramp == 0 && gen.speed != to) {
-        set_ramp(a, to > gen.speed ? 1 : -1);
-        rules::s_begin(gen, to, jerk_ticks(state_.axis[a]));
-    }
-    if (gen.ramp != 0) s_advance(a);
-}
-
 /// The final deceleration begins in this tick: an accelerating ramp is dropped, a decelerating one gets a new target.
-void Chip::s_turn_final(int a) {
-    Generator& gen = state_.axis[a].gen;
+void s_turn_final(Axis& axis) {
+    Generator& gen = axis.gen;
     auto over = [&] {
-        set_ramp(a, 0);
+        set_ramp(axis, 0);
         gen.speed_part = gen.rate_part = 0;
     };
     if (gen.ramp > 0) return over();
     if (gen.ramp == 0) return;
-    gen.aim = target(state_.axis[a]);
+    gen.aim = target_speed(axis);
     if (gen.speed <= gen.aim) return over();
     if (gen.phase == RatePhase::decreasing) {
         gen.phase = RatePhase::increasing;
@@ -91,12 +58,74 @@ void Chip::s_turn_final(int a) {
     }
 }
 
-void Chip::s_advance(int a) {
-    Axis& axis = state_.axis[a];
+void s_advance(Axis& axis) {
     Generator& gen = axis.gen;
     if (!rules::s_tick(gen, jerk_ticks(axis), ramp_rate(axis, gen))) return;
-    set_ramp(a, 0);
+    set_ramp(axis, 0);
     gen.speed_part = gen.rate_part = 0;
+}
+
+void s_curve(Axis& axis) {
+    Generator& gen = axis.gen;
+    if (gen.final && !gen.final_seen) s_turn_final(axis);
+    const std::int64_t to = target_speed(axis);
+    if (gen.ramp == 0 && gen.speed != to) {
+        set_ramp(axis, to > gen.speed ? 1 : -1);
+        rules::s_begin(gen, to, jerk_ticks(axis));
+    }
+    if (gen.ramp != 0) s_advance(axis);
+}
+
+}  // namespace
+
+std::int64_t target_speed(const Axis& axis) {
+    if (!axis.gen.final) return rules::used_speed(axis.speed);
+    return std::min(axis.gen.speed, rules::used_speed(axis.start_speed));
+}
+
+void advance_speed(Axis& axis) {
+    if (axis.gen.s_curve)
+        s_curve(axis);
+    else
+        t_curve(axis);
+}
+
+std::int64_t ticks_to_speed_event(const Axis& axis) {
+    const Generator& gen = axis.gen;
+    if (gen.stopping && gen.speed <= rules::used_speed(axis.start_speed)) return 1;
+    const std::int64_t to = target_speed(axis);
+    if (!gen.s_curve) {
+        const int want = to > gen.speed ? 1 : to < gen.speed ? -1 : 0;
+        if (want != gen.ramp) return 1;
+        if (gen.ramp == 0) return far;
+        return rules::ticks_to_carry(gen.speed_part, ramp_rate(axis, gen));
+    }
+    if (gen.final && !gen.final_seen) return 1;
+    if (gen.ramp == 0) return gen.speed != to ? 1 : far;
+    return rules::s_ticks(gen, jerk_ticks(axis));
+}
+
+void skip_speed(Axis& axis, std::int64_t ticks) {
+    Generator& gen = axis.gen;
+    if (gen.ramp == 0) return;
+    ticks -= std::min<std::int64_t>(gen.wait, ticks);
+    if (gen.s_curve) return rules::s_skip(gen, ticks);
+    if (ticks > 0) gen.rate = ramp_rate(axis, gen);
+    gen.speed_part += ticks * gen.rate;
+}
+
+/// Returns true if the drive ended.
+bool Chip::speed_step(int a) {
+    Axis& axis = state_.axis[a];
+    Generator& gen = axis.gen;
+    auto at_start_speed = [&] { return gen.speed <= rules::used_speed(axis.start_speed); };
+    if (gen.stopping && at_start_speed()) return end(a), true;
+    const std::int64_t before = gen.speed;
+    advance_speed(axis);
+    gen.final_seen = gen.final;
+    if (gen.speed != before) law_changed_of(a);
+    if (gen.stopping && at_start_speed()) return end(a), true;
+    return false;
 }
 
 }  // namespace motionrack::mcx314

@@ -214,6 +214,20 @@ struct State {
     std::uint32_t homing = 0;                  ///< axes with a home search in progress
     std::uint32_t acting = 0;                  ///< axes whose condition has occurred
     std::array<Extension, axes_of_chip> extension{};
+
+    bool driving(int a) const { return axis[a].gen.drive != Drive::idle || ((chain | homing) >> a & 1u) != 0; }
+    /// The drive has ended, and nINPOS is enabled and inactive.
+    bool waits_for_position(int a) const;
+    /// True while the axis drives, searches its home or waits for nINPOS.
+    bool busy(int a) const { return driving(a) || waits_for_position(a); }
+    /// The axis whose registers the bus shows.
+    int first_selected() const;
+    /// Axes stepped by generator `a` in the present segment.
+    std::uint32_t moved_by(int a) const { return axis[a].gen.drive == Drive::path ? path.command.mask() : 1u << a; }
+    /// True if each basic pulse of generator `a` needs a request.
+    bool by_steps(int a) const { return axis[a].gen.drive == Drive::path && path.command.steps != 0; }
+    /// True if generator `a` waits for the request of a step.
+    bool halted(int a) const { return by_steps(a) && !stepping; }
 };
 
 static_assert(std::has_unique_object_representations_v<State>, "equal chips have equal bytes: no padding");
@@ -267,6 +281,15 @@ constexpr bool alarm_active(const Axis& axis) {
 /// nINPOS is active or disabled.
 constexpr bool in_position(const Axis& axis) {
     return !wr2::INPE.test(axis.wr2) || level(axis, Pin::in_position) == wr2::INPL.test(axis.wr2);
+}
+
+inline bool State::waits_for_position(int a) const {
+    return bit(in_place, a) && !in_position(axis[a]);
+}
+inline int State::first_selected() const {
+    int a = 0;
+    while (a < axes_of_chip - 1 && !(selected >> a & 1u)) ++a;
+    return a;
 }
 
 /// Records interrupts: RR3 shows those of `causes` that WR1 enables.

@@ -4,12 +4,6 @@
 
 namespace motionrack::mcx314 {
 
-int Chip::first_selected() const {
-    int a = 0;
-    while (a < axes_of_chip - 1 && !(state_.selected >> a & 1u)) ++a;
-    return a;
-}
-
 std::uint16_t Chip::read(std::uint32_t offset) {
     const Instant now = kernel_.now();
     catch_up(now);
@@ -31,7 +25,7 @@ std::uint8_t Chip::read_byte(std::uint32_t port) {
 
 /// Handles a read of the bits in `mask` of RR3.
 void Chip::clear_flags(std::uint16_t mask) {
-    Axis& read_axis = state_.axis[first_selected()];
+    Axis& read_axis = state_.axis[state_.first_selected()];
     read_axis.flags = static_cast<std::uint16_t>(read_axis.flags & ~mask);
     forget_specials();
 }
@@ -41,11 +35,11 @@ std::uint16_t Chip::peek(std::uint32_t offset) const {
         case reg::RR0:
             return main_status();
         case reg::RR1:
-            return status1(first_selected());
+            return status1(state_.first_selected());
         case reg::RR2:
-            return status2(first_selected());
+            return status2(state_.first_selected());
         case reg::RR3:
-            return state_.axis[first_selected()].flags;
+            return state_.axis[state_.first_selected()].flags;
         case reg::RR4:
             return static_cast<std::uint16_t>(input_levels(0) | input_levels(1) << 8);
         case reg::RR5:
@@ -59,21 +53,10 @@ std::uint16_t Chip::peek(std::uint32_t offset) const {
     }
 }
 
-/// The drive has ended, and nINPOS is enabled and inactive.
-bool Chip::waits_for_position(int a) const {
-    const Axis& axis = state_.axis[a];
-    return bit(state_.in_place, a) && !in_position(axis);
-}
-
-/// True while the axis drives, searches its home or waits for nINPOS.
-bool Chip::busy(int a) const {
-    return driving(a) || waits_for_position(a);
-}
-
 std::uint16_t Chip::main_status() const {
     unsigned busy_axes = 0, wrong_axes = 0;
     for (int a = 0; a < axes_of_chip; ++a) {
-        if (busy(a)) busy_axes |= 1u << a;
+        if (state_.busy(a)) busy_axes |= 1u << a;
         if (rr2::errors.test(status2(a)) || rr1::errors.test(state_.axis[a].finished)) wrong_axes |= 1u << a;
     }
     unsigned v = rr0::ERR.set(rr0::DRV.set(0, busy_axes), wrong_axes);

@@ -1,5 +1,6 @@
 // One tick by the rules: inputs, pulse, and the consequences of a pulse (RULES.md, "One generator an axis").
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/ramp.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -51,23 +52,18 @@ void Chip::work(int a) {
     if (inputs(a)) return;
     if (gen.drive == Drive::fixed && gen.n >= state_.axis[a].pulses) return end(a);
     if (gen.drive == Drive::path && path_finished() && segment_end(a)) return;
-    if (halted(a)) return;
+    if (state_.halted(a)) return;
     gen.acc += gen.speed;
     bool step_made = false;
     if (gen.acc >= gen.range_now) {
         gen.acc -= gen.range_now;
         if (pulse(a)) return;
-        step_made = by_steps(a);
+        step_made = state_.by_steps(a);
     }
     if (!speed_step(a) && step_made) end_step(a);
 }
 
 // ---- step 1
-
-/// Axes stepped by generator `a` in the present segment.
-std::uint32_t Chip::moved_by(int a) const {
-    return state_.axis[a].gen.drive == Drive::path ? state_.path.command.mask() : 1u << a;
-}
 
 /// Stop causes of one axis as bits of RR1, and the stop that they request.
 std::uint16_t Chip::active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const {
@@ -109,7 +105,7 @@ bool Chip::inputs(int a) {
     Generator& gen = state_.axis[a].gen;
     bool decelerating = gen.ask_decelerating, immediate = gen.ask_immediate;
     gen.ask_decelerating = gen.ask_immediate = false;
-    const std::uint32_t moved = moved_by(a);
+    const std::uint32_t moved = state_.moved_by(a);
     for (int i = 0; i < axes_of_chip; ++i) {
         if (!(moved >> i & 1)) continue;
         const unsigned causes = state_.axis[i].causes | active_inputs(state_.axis[i], decelerating, immediate);
@@ -124,7 +120,8 @@ bool Chip::inputs(int a) {
 bool Chip::stop(int a, bool decelerating, bool immediate) {
     Generator& gen = state_.axis[a].gen;
     if (!decelerating && !immediate) return false;
-    if (immediate || halted(a) || gen.speed <= rules::used_speed(state_.axis[a].start_speed)) return end(a), true;
+    if (immediate || state_.halted(a) || gen.speed <= rules::used_speed(state_.axis[a].start_speed))
+        return end(a), true;
     if (!gen.final) gen.special_known = false;
     gen.final = gen.stopping = true;
     if (gen.drive == Drive::path) state_.queued = false;
@@ -173,7 +170,7 @@ bool Chip::pulse(int a) {
     mark_pulse(a, moved_last_, {state_.tick, gen.acc, gen.speed});
     for_each_axis(moved_last_, [this](int i) { state_.axis[i].mark.direction = went_[i]; });
     bool beyond = false;
-    const std::uint32_t moved = moved_by(a);
+    const std::uint32_t moved = state_.moved_by(a);
     for (int i = 0; i < axes_of_chip; ++i) beyond = beyond || ((moved >> i & 1) && beyond_software_limit(i));
     if (stop(a, beyond, false)) return true;
     if (gen.drive == Drive::fixed && gen.n >= state_.axis[a].pulses) return end(a), true;
@@ -233,7 +230,7 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
 /// others has ended.
 void Chip::mark_pulse(int a, unsigned stepped, const PulseMoment& at) {
     const Generator& gen = state_.axis[a].gen;
-    for_each_axis(moved_by(a), [&](int i) {
+    for_each_axis(state_.moved_by(a), [&](int i) {
         Axis& axis = state_.axis[i];
         axis.mark = {at.when(), stepped >> i & 1 ? static_cast<std::int32_t>(at.speed) : 0,
                      static_cast<std::int32_t>(gen.range_now), axis.direction, 0};

@@ -83,7 +83,7 @@ int Chip::output_level(int a, int output) const {
 /// nDRIVE: the axis drives, or the deviation counter clear pulse.
 int Chip::drive_level(int a, std::int64_t at) const {
     const Extension& ext = state_.extension[a];
-    return em::DCCE.test(ext.em7) ? (at < ext.clear_until) != em::DCCL.test(ext.em7) : busy(a);
+    return em::DCCE.test(ext.em7) ? (at < ext.clear_until) != em::DCCL.test(ext.em7) : state_.busy(a);
 }
 
 int Chip::level_at(int pin, Instant now) const {
