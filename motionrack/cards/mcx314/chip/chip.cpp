@@ -7,14 +7,6 @@
 
 namespace motionrack::mcx314 {
 
-namespace {
-
-constexpr const char* axis_letters = "xyzu";
-constexpr std::array<const char*, 10> input_names = {"in0",  "in1",   "in2",   "in3",  "expp",
-                                                     "expm", "inpos", "alarm", "lmtp", "lmtm"};
-
-}  // namespace
-
 std::string describe(const sim::Condition& condition, const std::string& card) {
     switch (condition.code) {
         case drive_ignored:
@@ -65,33 +57,12 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
       id_(kernel.add(*this, sim::Phase::cards, name)),
       options_(options),
       extended_(options.variant == Variant::mcx314as),
+      wires_(kernel, id_, name),
       limit_begins_(options.software_limit == SoftwareLimit::at ? 1 : 0) {
     for (int a = 0; a < axes_of_chip; ++a) {
-        const std::string prefix = name + "." + axis_letters[a];
         outputs_[a].chip = listeners_[a].chip = this;
         outputs_[a].axis = listeners_[a].axis = a;
-        for (std::size_t i = 0; i < input_names.size(); ++i) {
-            inputs_[a][i] = kernel_.add_wire(prefix + input_names[i], 1);
-            kernel_.listen(inputs_[a][i], id_, 16 * a + static_cast<int>(i));
-        }
-        for (int i = 0; i < 2; ++i) {
-            pulse_wires_[a][i] = kernel_.add_wire(prefix + (i == 0 ? "pp" : "pm"), 0);
-            kernel_.drive_lazily(pulse_wires_[a][i], id_, output_pin + 16 * a + i);
-            encoder_wires_[a][i] = kernel_.add_wire(prefix + (i == 0 ? "eca" : "ecb"), 1);
-            kernel_.listen(encoder_wires_[a][i], id_, encoder_pin + 2 * a + i);
-        }
-        drive_wires_[a] = kernel_.add_wire(prefix + "drive", 0);
-        kernel_.drive_lazily(drive_wires_[a], id_, output_pin + 16 * a + 2);
-        for (int i = 0; i < 8; ++i) {
-            general_outputs_[a][i] = kernel_.add_wire(prefix + "out" + std::to_string(i), 0);
-            if (i >= 4) kernel_.drive_lazily(general_outputs_[a][i], id_, output_pin + 16 * a + 8 + i);
-        }
     }
-    emgn_ = kernel_.add_wire(name + ".emgn", 1);
-    kernel_.listen(emgn_, id_, emergency_pin);
-    expls_n_ = kernel_.add_wire(name + ".expls_n", 1);
-    kernel_.listen(expls_n_, id_, step_pin);
-    int_n_ = kernel_.add_wire(name + ".int_n", 1);
     for (int a = 0; a < axes_of_chip; ++a) {
         state_.axis[a].offset = options_.offset_after_reset;
         compare(a);
@@ -137,16 +108,16 @@ void Chip::reschedule() {
         if (axis.pulses_wanted && axis.mark.active(state_.tick)) next = std::min(next, axis.mark.end());
     });
     state_.next_event = state_.sampled != 0 ? state_.tick + 1 : next;
-    stale_ = false;
+    requests_.found_next();
 }
 
 /// Publishes the changes of an event to the listeners, and schedules the next event in the kernel.
 void Chip::settle(Instant now) {
-    if (state_.acting != 0) wake();
+    if (state_.acting != 0) requests_.wake();
     notify_listeners(now);
     update_interrupt();
     if (state_.following != 0) show_wires(now);
-    if (stale_) reschedule();
+    if (requests_.stale()) reschedule();
     Instant next = state_.next_event > tick_of(never) ? never : Instant{state_.next_event * rules::tick_100ps};
     if (state_.crossed != 0) next = now + Duration{1};  // reports a range already left
     kernel_.schedule(id_, next);
@@ -165,14 +136,14 @@ void Chip::begin() {
         set_wants(a);
         watch_encoder(a);
     }
-    kernel_.subscribe(emgn_, id_, true);
-    state_.emergency_high = kernel_.level(emgn_) != 0;
-    kernel_.subscribe(expls_n_, id_, true);
-    hear_step_wire(kernel_.level(expls_n_));
+    kernel_.subscribe(wires_.emergency, id_, true);
+    state_.emergency_high = kernel_.level(wires_.emergency) != 0;
+    kernel_.subscribe(wires_.step, id_, true);
+    hear_step_wire(kernel_.level(wires_.step));
     state_.emergency_filter.wire = state_.emergency_high;
     state_.step_filter.wire = state_.step_high;
     note_followers();
-    stale_ = true;
+    requests_.make_stale();
 }
 
 /// Brings the chip up to `now` before its state is accessed from outside.
@@ -180,24 +151,14 @@ void Chip::catch_up(Instant now) {
     if (!state_.begun) begin();
     advance_to(tick_of(now));
     note_rates();
-    stale_ = true;
+    requests_.make_stale();
 }
 
 /// The same before an input changes: a change at the very instant of a tick belongs to that tick.
 void Chip::catch_up_before(Instant now) {
     advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
     note_rates();
-    stale_ = true;
-}
-
-/// After a change of inputs, limits or commands, every generator executes its next working tick in full.
-void Chip::look_anew() {
-    for (Axis& axis : state_.axis) axis.gen.full_tick = true;
-}
-
-/// After a change of watched, compared or requested values, the next special pulse of every generator is unknown.
-void Chip::forget_specials() {
-    for (Axis& axis : state_.axis) axis.gen.special_known = false;
+    requests_.make_stale();
 }
 
 void Chip::sync(Instant now) {
@@ -209,22 +170,22 @@ void Chip::sync(Instant now) {
 void Chip::on_wire(int pin, int wire_level, Instant now) {
     if (!state_.begun) begin();
     catch_up_before(now);
-    if (pin >= encoder_pin) return encoder_lines((pin - encoder_pin) / 2, now);
+    if (pin >= ChipWires::encoder_pin) return encoder_lines((pin - ChipWires::encoder_pin) / 2, now);
     if (extended_) {
-        wake();
+        requests_.wake();
         if (!passes_filter(pin, wire_level)) return settle(now);
     }
-    if (pin == step_pin) {
+    if (pin == ChipWires::step_pin) {
         hear_step_wire(wire_level);
         return settle(now);
     }
-    if (pin == emergency_pin) {
+    if (pin == ChipWires::emergency_pin) {
         state_.emergency_high = wire_level != 0;
     } else {
         set_level(state_.axis[pin / 16].levels, pin % 16, wire_level != 0);
         hear_external(pin);
     }
-    look_anew();
+    requests_.look_anew();
     settle(now);
 }
 
@@ -233,15 +194,11 @@ void Chip::update_interrupt() {
     for (const Axis& axis : state_.axis) active = active || axis.flags != 0;
     if (active == state_.interrupt) return;
     state_.interrupt = active;
-    kernel_.set_wire(int_n_, active ? 0 : 1);
+    kernel_.set_wire(wires_.interrupt, active ? 0 : 1);
     if (active) kernel_.break_run();
 }
 
 // ---- position sources
-
-void Chip::law_changed_of(int generator) {
-    changed_ |= state_.axis[generator].gen.drive == Drive::path ? state_.path.command.mask() : 1u << generator;
-}
 
 /// Updates the rates before an event: along an arc they drift between the changes that listeners receive.
 void Chip::note_rates() {
@@ -254,7 +211,7 @@ void Chip::note_rates() {
 }
 
 void Chip::notify_listeners(Instant now) {
-    const unsigned changed = std::exchange(changed_, 0u);
+    const unsigned changed = requests_.take_changed();
     for_each_axis((changed | state_.crossed) & listened_, [&](int a) {
         Output& output = outputs_[a];
         if (changed >> a & 1u) {
@@ -277,8 +234,8 @@ void Chip::notify_listeners(Instant now) {
 void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
     Axis& axis = state_.axis[a];
     axis.watch[slot] = {below, above};
-    forget_specials();
-    stale_ = true;
+    requests_.forget_specials();
+    requests_.make_stale();
     const Instant now = kernel_.now();
     if (axis.watch[slot].left(count_at(a, now))) state_.crossed |= 1u << a;
     // In an event of the chip settle() follows anyway; otherwise it is requested at this very instant.

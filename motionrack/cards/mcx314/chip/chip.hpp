@@ -12,6 +12,8 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/cards/mcx314/chip/chip_wires.hpp>
+#include <motionrack/cards/mcx314/chip/event_requests.hpp>
 #include <motionrack/cards/mcx314/chip/options.hpp>
 #include <motionrack/cards/mcx314/chip/state.hpp>
 #include <motionrack/sim/kernel.hpp>
@@ -72,7 +74,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     static std::vector<std::string_view> inspected_names(bool per_axis);
 
     sim::DeviceId id() const { return id_; }
-    sim::WireId interrupt_wire() const { return int_n_; }
+    sim::WireId interrupt_wire() const { return wires_.interrupt; }
 
     void on_scheduled(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
@@ -84,9 +86,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
 
   private:
     struct Inspected;  // inspect.cpp
-    static constexpr int emergency_pin = 100, step_pin = 101;
-    static constexpr int encoder_pin = 120;  // + 2 * axis + (0 xeca, 1 xecb)
-    static constexpr int output_pin = 200;   // + 16 * axis + (0 xpp, 1 xpm, 2 xdrive, 8 + n: nOUTn)
 
     /// Pulses of one axis.
     class Output final : public sim::PositionFunction {
@@ -130,11 +129,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void begin();
     void catch_up(Instant now);
     void catch_up_before(Instant now);
-    void look_anew();
-    void forget_specials();
     void update_interrupt();
-    void law_changed(int a) { changed_ |= 1u << a; }
-    void law_changed_of(int generator);
     void note_rates();
     void notify_listeners(Instant now);
     std::int64_t count_at(int axis, Instant t) const;
@@ -156,7 +151,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     // encoder.cpp: EP
     void encoder_crossed(int axis, Instant now);
     void encoder_lines(int axis, Instant now);
-    bool encoder_connected(int a) const { return listeners_[a].motion && !kernel_.forced(encoder_wires_[a][0]); }
+    bool encoder_connected(int a) const { return listeners_[a].motion && !kernel_.forced(wires_.encoders[a][0]); }
     void watch_encoder(int axis);
     std::int32_t encoder_position(const Axis& axis, int a) const;
     void set_encoder_position(int a, std::int32_t value);
@@ -292,7 +287,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void ask_clear(int a);
     void avoid_triangle(int a);
     // filters.cpp: inputs, once per tick
-    void wake() { state_.next_sample = std::min(state_.next_sample, state_.tick + 1), stale_ = true; }
     unsigned inputs_of_extension(int a) const;
     bool passes_filter(int pin, int wire_level);
     void set_filters(int a);
@@ -320,24 +314,16 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     sim::Kernel& kernel_;
     sim::DeviceId id_;
     ChipOptions options_;
-    bool extended_ = false;          // an MCX314As
-    std::int64_t limit_begins_ = 0;  // 1: software limits begin at COMP+, not beyond
+    bool extended_ = false;  // an MCX314As
+    ChipWires wires_;
     State state_{};
+    EventRequests requests_{state_};
+    std::int64_t limit_begins_ = 0;  // 1: software limits begin at COMP+, not beyond
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderListener, axes_of_chip> listeners_;
-    std::array<std::array<sim::WireId, 10>, axes_of_chip> inputs_{};
-    std::array<std::array<sim::WireId, 8>, axes_of_chip> general_outputs_{};
-    std::array<std::array<sim::WireId, 2>, axes_of_chip> pulse_wires_{};
-    std::array<sim::WireId, axes_of_chip> drive_wires_{};
-    std::array<std::array<sim::WireId, 2>, axes_of_chip> encoder_wires_{};
-    sim::WireId emgn_{};
-    sim::WireId expls_n_{};
-    sim::WireId int_n_{};
     unsigned listened_ = 0;                 // axes whose position or edges have listeners
-    bool stale_ = false;                    // the tick of the next event must be recomputed
     unsigned moved_last_ = 0;               // axes that stepped in the present basic pulse
     std::array<int, axes_of_chip> went_{};  // direction of each of these steps
-    unsigned changed_ = 0;                  // axes whose law of motion changed in the present event
 };
 
 }  // namespace motionrack::mcx314

@@ -110,8 +110,8 @@ void Chip::set_edge_listener(int axis, sim::EdgeListener* listener) {
     advance_to(tick_of(kernel_.now()));
     if (outputs_[axis].edge_listener) flush_edges(axis);
     outputs_[axis].edge_listener = listener;
-    forget_specials();
-    stale_ = true;
+    requests_.forget_specials();
+    requests_.make_stale();
     listened_ = listener || outputs_[axis].listeners.size() > 0 ? listened_ | 1u << axis : listened_ & ~(1u << axis);
     outputs_[axis].batch.size = 0;
 }

@@ -66,7 +66,7 @@ void Chip::encoder_crossed(int a, Instant now) {
     catch_up_before(now);
     compare(a);
     watch_encoder(a);
-    look_anew();
+    requests_.look_anew();
     settle(now);
 }
 
@@ -79,10 +79,10 @@ void Chip::take_encoder(int a, bool taken) {
     if (taken && encoder_connected(a)) {
         axis.ep = encoder_position(axis, a);
         axis.encoder_lines = sim::lines_of(listener.motion->count(now));
-        for (int i = 0; i < 2; ++i) kernel_.force(encoder_wires_[a][i], axis.encoder_lines >> i & 1);
+        for (int i = 0; i < 2; ++i) kernel_.force(wires_.encoders[a][i], axis.encoder_lines >> i & 1);
         watch_encoder(a);
     } else if (!taken && !encoder_connected(a)) {
-        for (const sim::WireId wire : encoder_wires_[a]) kernel_.release(wire);
+        for (const sim::WireId wire : wires_.encoders[a]) kernel_.release(wire);
         set_encoder_position(a, axis.ep);
         watch_encoder(a);
     }
@@ -94,7 +94,7 @@ void Chip::encoder_lines(int a, Instant now) {
     Axis& axis = state_.axis[a];
     if (encoder_connected(a)) return;
     const unsigned lines =
-        (kernel_.level(encoder_wires_[a][0]) != 0 ? 1u : 0u) | (kernel_.level(encoder_wires_[a][1]) != 0 ? 2u : 0u);
+        (kernel_.level(wires_.encoders[a][0]) != 0 ? 1u : 0u) | (kernel_.level(wires_.encoders[a][1]) != 0 ? 2u : 0u);
     const unsigned before = axis.encoder_lines;
     axis.encoder_lines = static_cast<std::uint8_t>(lines);
     int change = 0;
@@ -109,7 +109,7 @@ void Chip::encoder_lines(int a, Instant now) {
     if (em::EPINV.test(state_.extension[a].em6)) change = -change;
     axis.ep = stepped(axis, axis.ep, change);
     compare(a);
-    look_anew();
+    requests_.look_anew();
     settle(now);
 }
 

@@ -130,8 +130,7 @@ void Chip::ask_clear(int a) {
     Extension& ext = state_.extension[a];
     if (!em::DCCE.test(ext.em7)) return;
     ext.clear_until = state_.tick + map::clear_ticks[em::DCCW.get(ext.em7)];
-    state_.next_sample = std::min(state_.next_sample, ext.clear_until);
-    stale_ = true;
+    requests_.sample_at(ext.clear_until);
 }
 
 }  // namespace motionrack::mcx314

@@ -103,14 +103,14 @@ bool Chip::ask_step(std::uint32_t by) {
     if (state_.chain == 0 || state_.stepping || !(state_.path.command.steps & by)) return false;
     state_.stepping = true;
     state_.axis[state_.master].gen.special_known = false;
-    law_changed_of(state_.master);
+    requests_.law_changed_of(state_.master);
     return true;
 }
 
 void Chip::end_step(int a) {
     state_.stepping = false;
     state_.axis[a].gen.special_known = false;
-    law_changed_of(a);
+    requests_.law_changed_of(a);
     if (state_.axis[a].gen.stopping) end(a);
 }
 

@@ -53,7 +53,7 @@ void Chip::set_filters(int a) {
     const unsigned begun = pins & ~ext.filtered;
     ext.filtered = 0;
     for_each_axis(begun, [&](int pin) {
-        const bool high = kernel_.level(inputs_[a][pin]) != 0;
+        const bool high = kernel_.level(wires_.inputs[a][pin]) != 0;
         set_level(ext.wires, pin, high);
         set_level(state_.axis[a].levels, pin, high);
         ext.since[pin] = -1;
@@ -64,17 +64,17 @@ void Chip::set_filters(int a) {
     set_wants(a);
     ext.sampled = state_.axis[a].levels;
     hear_external(16 * a + static_cast<int>(Pin::exp_plus));
-    wake();
+    requests_.wake();
 }
 
 /// Handles a change of a wire; returns false if the wire has a filter, which then takes the change.
 bool Chip::passes_filter(int pin, int wire_level) {
     const unsigned chip_filters = state_.extension[0].em6;
-    if (pin == emergency_pin) {
+    if (pin == ChipWires::emergency_pin) {
         state_.emergency_filter.wire = wire_level != 0;
         return !emergency_is_filtered.test(chip_filters);
     }
-    if (pin == step_pin) {
+    if (pin == ChipWires::step_pin) {
         state_.step_filter.wire = wire_level != 0;
         return !step_is_filtered.test(chip_filters);
     }

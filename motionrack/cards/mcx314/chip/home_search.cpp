@@ -135,7 +135,7 @@ void Chip::look_at_homes() {
         if ((bit(state_.in_place, a) || clearing) && !ext.home.cancelled) return;
         for_each_axis(state_.working, [&](int i) { bring_up(i, state_.tick); });
         end_home_drive(a);
-        stale_ = true;
+        requests_.make_stale();
     });
 }
 

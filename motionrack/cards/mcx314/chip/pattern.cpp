@@ -21,7 +21,7 @@ void Chip::pattern_command(int code) {
             break;
         default:
             clear_pattern();
-            if (state_.chain != 0) law_changed_of(state_.master);
+            if (state_.chain != 0) requests_.law_changed_of(state_.master);
             break;
     }
 }
@@ -57,7 +57,7 @@ void Chip::next_pattern_word() {
         kernel_.report(id_, pattern_ran_out, state_.axis[state_.master].gen.n);
     }
     if (before == 2 && pattern_counter() == 1 && wr5::BPINT.test(state_.wr5)) pattern.interrupt = true;
-    law_changed_of(state_.master);
+    requests_.law_changed_of(state_.master);
 }
 
 /// Executes a basic pulse of a bit pattern; returns the number of axes that stepped, at least one.

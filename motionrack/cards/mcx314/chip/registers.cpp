@@ -8,7 +8,7 @@ namespace motionrack::mcx314 {
 
 void Chip::reset() {
     for (int a = 0; a < axes_of_chip; ++a)
-        if (state_.driving(a)) law_changed(a);
+        if (state_.driving(a)) requests_.law_changed(a);
     state_.chain = state_.working = state_.in_place = 0;
     for (Axis& axis : state_.axis) {
         Axis fresh;
@@ -32,11 +32,11 @@ void Chip::reset() {
     state_.held = {};
     state_.homing = state_.acting = 0;
     state_.next_sample = far;
-    state_.emergency_high = kernel_.level(emgn_) != 0;
+    state_.emergency_high = kernel_.level(wires_.emergency) != 0;
     state_.queued = state_.decel_enabled = state_.path_interrupt = state_.stepping = false;
     state_.pattern = {};
     state_.wr0_high = state_.step_low = 0;
-    hear_step_wire(kernel_.level(expls_n_));
+    hear_step_wire(kernel_.level(wires_.step));
     // An input may be connected to an output of the chip, which then reads the chip: its state is consistent here.
     for (int a = 0; a < axes_of_chip; ++a) {
         set_encoder_position(a, 0);
@@ -82,10 +82,10 @@ void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t m
         put(state_.wr6);
     else if (offset == reg::WR7)
         put(state_.wr7);
-    if (state_.homing != 0) wake();  // WR2 may have ended the wait for nINPOS
+    if (state_.homing != 0) requests_.wake();  // WR2 may have ended the wait for nINPOS
     if (state_.acting != 0) act_together();
-    look_anew();
-    forget_specials();
+    requests_.look_anew();
+    requests_.forget_specials();
     settle(now);
 }
 
@@ -256,7 +256,7 @@ void Chip::start_drive(int a, int code) {
     begin_generator(a, code == cmd::FIXED_PLUS || code == cmd::FIXED_MINUS ? Drive::fixed : Drive::continuous);
     state_.axis[a].finished = state_.axis[a].causes = 0;
     check_final(a);
-    law_changed(a);
+    requests_.law_changed(a);
     if (extended_) note(a, sm::DSTA);
 }
 
@@ -338,7 +338,7 @@ void Chip::start_path(const PathCommand& command) {
     begin_generator(state_.master, Drive::path);
     begin_segment(command);
     check_final(state_.master);
-    law_changed_of(state_.master);
+    requests_.law_changed_of(state_.master);
     if (extended_) for_each_axis(state_.chain, [this](int a) { note(a, sm::DSTA); });
 }
 
@@ -371,7 +371,7 @@ void Chip::ask_stop(unsigned axes, bool immediate) {
     for (int a = 0; a < axes_of_chip; ++a) {
         if (!(axes >> a & 1u)) continue;
         state_.axis[a].held_command = 0;
-        if (bit(state_.homing, a)) state_.extension[a].home.cancelled = true, wake();
+        if (bit(state_.homing, a)) state_.extension[a].home.cancelled = true, requests_.wake();
         Generator& gen = state_.axis[state_.chain >> a & 1u ? state_.master : a].gen;
         if (gen.drive == Drive::idle) continue;
         (immediate ? gen.ask_immediate : gen.ask_decelerating) = true;

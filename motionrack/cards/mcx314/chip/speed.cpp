@@ -123,7 +123,7 @@ bool Chip::speed_step(int a) {
     const std::int64_t before = gen.speed;
     advance_speed(axis);
     gen.final_seen = gen.final;
-    if (gen.speed != before) law_changed_of(a);
+    if (gen.speed != before) requests_.law_changed_of(a);
     if (gen.stopping && at_start_speed()) return end(a), true;
     return false;
 }

@@ -27,7 +27,7 @@ std::uint8_t Chip::read_byte(std::uint32_t port) {
 void Chip::clear_flags(std::uint16_t mask) {
     Axis& read_axis = state_.axis[state_.first_selected()];
     read_axis.flags = static_cast<std::uint16_t>(read_axis.flags & ~mask);
-    forget_specials();
+    requests_.forget_specials();
 }
 
 std::uint16_t Chip::peek(std::uint32_t offset) const {
@@ -102,7 +102,7 @@ std::uint16_t Chip::input_levels(int a) const {
     const unsigned filtered = state_.extension[a].filtered;
     unsigned v = state_.axis[a].levels & filtered & 0xFFu;
     for (int i = 0; i < 8; ++i)
-        if (!bit(filtered, i)) v |= static_cast<unsigned>(kernel_.level(inputs_[a][i]) != 0) << i;
+        if (!bit(filtered, i)) v |= static_cast<unsigned>(kernel_.level(wires_.inputs[a][i]) != 0) << i;
     return static_cast<std::uint16_t>(v);
 }
 

@@ -69,10 +69,10 @@ void Chip::act_together() {
     for_each_axis(std::exchange(state_.acting, 0u), [&](int a) { acting |= acting_with(a, state_.extension[a]); });
     for_each_axis(state_.working, [&](int a) { bring_up(a, state_.tick); });
     for_each_axis(acting, [&](int a) { act_alone(a); });
-    look_anew();
-    forget_specials();
-    if (state_.acting != 0) wake();
-    stale_ = true;
+    requests_.look_anew();
+    requests_.forget_specials();
+    if (state_.acting != 0) requests_.wake();
+    requests_.make_stale();
 }
 
 /// Executes the commands of SM7 as if the host had written them.

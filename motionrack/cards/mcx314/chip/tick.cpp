@@ -140,7 +140,7 @@ void Chip::end(int a) {
         request_interrupt(axis, rr3::DEND.mask);
         if (extended_) note(i, sm::DEND);
         state_.in_place |= 1u << i;
-        law_changed(i);
+        requests_.law_changed(i);
     }
     if (path) {
         state_.chain = 0;
@@ -197,7 +197,7 @@ int Chip::step_axes(int a) {
         if (path.arc.octant != octant) {
             state_.axis[a].gen.full_tick = true;
             state_.axis[a].gen.special_known = false;
-            law_changed_of(a);
+            requests_.law_changed_of(a);
         }
         return moved;
     }
@@ -256,14 +256,14 @@ int Chip::path_direction(int i) const {
 bool Chip::segment_end(int a) {
     if (!state_.queued) return end(a), true;
     state_.queued = false;
-    law_changed_of(a);
+    requests_.law_changed_of(a);
     Generator& gen = state_.axis[a].gen;
     gen.n = 0;
     begin_segment(state_.queue);
     gen.range_now = state_.path.range_for[static_cast<std::size_t>(state_.stepped - 1)];
     gen.special_known = false;
     gen.full_tick = true;
-    law_changed_of(a);
+    requests_.law_changed_of(a);
     if (wr5::CIINT.test(state_.wr5)) state_.path_interrupt = true;
     if (path_finished()) return end(a), true;
     check_final(a);

@@ -15,9 +15,9 @@ void Chip::set_wants(int a) {
     auto set = [&](Pin pin, bool wanted) {
         const int i = static_cast<int>(pin);
         wanted = wanted || bit(also, i);
-        kernel_.subscribe(inputs_[a][i], id_, wanted);
+        kernel_.subscribe(wires_.inputs[a][i], id_, wanted);
         if (bit(filtered, i)) return;  // its level is that of the filter
-        set_level(axis.levels, i, !wanted || kernel_.level(inputs_[a][i]) != 0);
+        set_level(axis.levels, i, !wanted || kernel_.level(wires_.inputs[a][i]) != 0);
     };
     for (int i = 0; i < 4; ++i) set(static_cast<Pin>(i), stop_input_enabled(axis, i));
     set(Pin::exp_plus, drives_by_wire(axis.wr3));
@@ -26,14 +26,14 @@ void Chip::set_wants(int a) {
     set(Pin::alarm, wr2::ALME.test(axis.wr2));
     set(Pin::limit_plus, true);
     set(Pin::limit_minus, true);
-    for (int i = 0; i < 2; ++i) kernel_.subscribe(encoder_wires_[a][i], id_, true);
+    for (int i = 0; i < 2; ++i) kernel_.subscribe(wires_.encoders[a][i], id_, true);
 }
 
 // ---- outputs
 
 void Chip::update_outputs() {
     for (int a = 0; a < axes_of_chip; ++a)
-        for (int i = 0; i < 4; ++i) kernel_.set_wire(general_outputs_[a][i], state_.wr4 >> (4 * a + i) & 1);
+        for (int i = 0; i < 4; ++i) kernel_.set_wire(wires_.general_outputs[a][i], state_.wr4 >> (4 * a + i) & 1);
 }
 
 /// State of the axis' last pulse at tick `to`.
@@ -87,7 +87,7 @@ int Chip::drive_level(int a, std::int64_t at) const {
 }
 
 int Chip::level_at(int pin, Instant now) const {
-    const int a = (pin - output_pin) / 16, which = (pin - output_pin) % 16;
+    const int a = (pin - ChipWires::output_pin) / 16, which = (pin - ChipWires::output_pin) % 16;
     if (which == 2) return drive_level(a, tick_of(now));
     if (which >= 8) return output_level(a, which - 8);
     const std::int64_t at = tick_of(now);
@@ -107,12 +107,12 @@ void Chip::note_followers() {
     state_.following = 0;
     for (int a = 0; a < axes_of_chip; ++a) {
         Axis& axis = state_.axis[a];
-        const bool pulses = kernel_.wanted(pulse_wires_[a][0]) || kernel_.wanted(pulse_wires_[a][1]);
+        const bool pulses = kernel_.wanted(wires_.pulses[a][0]) || kernel_.wanted(wires_.pulses[a][1]);
         bool outputs = false;
-        for (int i = 4; i < 8; ++i) outputs = outputs || kernel_.wanted(general_outputs_[a][i]);
-        axis.drive_wanted = kernel_.wanted(drive_wires_[a]);
+        for (int i = 4; i < 8; ++i) outputs = outputs || kernel_.wanted(wires_.general_outputs[a][i]);
+        axis.drive_wanted = kernel_.wanted(wires_.drives[a]);
         if (pulses != axis.pulses_wanted || outputs != axis.outputs_wanted) {
-            forget_specials();
+            requests_.forget_specials();
             axis.shown = axis.made;
         }
         axis.pulses_wanted = pulses;
@@ -132,13 +132,13 @@ void Chip::show_wires(Instant now) {
             for (int which = 0; which < 2; ++which) {
                 const int level = pulse_level(a, which, axis.mark.active(at), axis.mark.direction);
                 const int idle = pulse_level(a, which, false, axis.mark.direction);
-                if (fresh && level != idle) kernel_.set_wire(pulse_wires_[a][which], idle);  // two pulses never merge
-                kernel_.set_wire(pulse_wires_[a][which], level);
+                if (fresh && level != idle) kernel_.set_wire(wires_.pulses[a][which], idle);  // two pulses never merge
+                kernel_.set_wire(wires_.pulses[a][which], level);
             }
         }
-        if (axis.drive_wanted) kernel_.set_wire(drive_wires_[a], drive_level(a, at));
+        if (axis.drive_wanted) kernel_.set_wire(wires_.drives[a], drive_level(a, at));
         if (axis.outputs_wanted)
-            for (int i = 4; i < 8; ++i) kernel_.set_wire(general_outputs_[a][i], output_level(a, i));
+            for (int i = 4; i < 8; ++i) kernel_.set_wire(wires_.general_outputs[a][i], output_level(a, i));
     }
 }
 

@@ -1,0 +1,49 @@
+// What an event leaves to be done after it: ticks to be executed, the search for the next event, changed laws of motion.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <motionrack/cards/mcx314/chip/state.hpp>
+#include <utility>
+
+namespace motionrack::mcx314 {
+
+class EventRequests {
+  public:
+    explicit EventRequests(State& state) : state_(state) {}
+
+    /// The inputs are sampled in the next tick.
+    void wake() { sample_at(state_.tick + 1); }
+    /// The inputs are sampled at `tick` at the latest.
+    void sample_at(std::int64_t tick) {
+        state_.next_sample = std::min(state_.next_sample, tick);
+        make_stale();
+    }
+    /// After a change of inputs, limits or commands, every generator executes its next working tick in full.
+    void look_anew() {
+        for (Axis& axis : state_.axis) axis.gen.full_tick = true;
+    }
+    /// After a change of watched, compared or requested values, the next special pulse of every generator is unknown.
+    void forget_specials() {
+        for (Axis& axis : state_.axis) axis.gen.special_known = false;
+    }
+
+    /// The tick of the next event must be found again.
+    void make_stale() { stale_ = true; }
+    bool stale() const { return stale_; }
+    void found_next() { stale_ = false; }
+
+    /// The law of motion of an axis has changed in the present event.
+    void law_changed(int a) { changed_ |= 1u << a; }
+    /// The same for all axes that a generator moves.
+    void law_changed_of(int generator) { changed_ |= state_.moved_by(generator); }
+    /// Axes whose law has changed since the last call.
+    unsigned take_changed() { return std::exchange(changed_, 0u); }
+
+  private:
+    State& state_;
+    bool stale_ = false;
+    unsigned changed_ = 0;
+};
+
+}  // namespace motionrack::mcx314
