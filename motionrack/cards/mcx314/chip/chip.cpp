@@ -60,8 +60,8 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
       wires_(kernel, id_, name),
       limit_begins_(options.software_limit == SoftwareLimit::at ? 1 : 0) {
     for (int a = 0; a < axes_of_chip; ++a) {
-        outputs_[a].chip = listeners_[a].chip = this;
-        outputs_[a].axis = listeners_[a].axis = a;
+        outputs_[a].chip = encoder_listeners_[a].chip = this;
+        outputs_[a].axis = encoder_listeners_[a].axis = a;
     }
     for (int a = 0; a < axes_of_chip; ++a) {
         state_.axis[a].offset = options_.offset_after_reset;
@@ -69,11 +69,6 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
     }
     state_.next_event = state_.next_sample = far;
     kernel_.schedule(id_, Instant{0});
-}
-
-int Chip::Output::add_listener(sim::PositionListener& listener) {
-    chip->listened_ |= 1u << axis;
-    return listeners.add(listener);
 }
 
 // ---- time
@@ -205,29 +200,29 @@ void Chip::note_rates() {
     if (state_.chain == 0 || !state_.path.command.arc()) return;
     for (int i = 0; i < 2; ++i) {
         const int a = state_.path.command.axis[i];
-        if (outputs_[a].listeners.size() > 0)
-            state_.axis[a].reported_rate = std::bit_cast<std::uint64_t>(rate_of(a, Instant{0}));
+        if (listeners_.of_axis[a].size() > 0)
+            state_.axis[a].reported_rate = std::bit_cast<std::uint64_t>(law_.rate_of(a, Instant{0}));
     }
 }
 
 void Chip::notify_listeners(Instant now) {
     const unsigned changed = requests_.take_changed();
-    for_each_axis((changed | state_.crossed) & listened_, [&](int a) {
+    for_each_axis((changed | state_.crossed) & listeners_.heard, [&](int a) {
         Output& output = outputs_[a];
         if (changed >> a & 1u) {
             if (output.edge_listener) flush_edges(a);
-            if (output.listeners.size() > 0) {
-                const double rate = rate_of(a, now);
+            if (listeners_.of_axis[a].size() > 0) {
+                const double rate = law_.rate_of(a, now);
                 const auto before = std::bit_cast<double>(
                     std::exchange(state_.axis[a].reported_rate, std::bit_cast<std::uint64_t>(rate)));
-                output.listeners.notify_rate(before, rate, now);
+                listeners_.of_axis[a].notify_rate(before, rate, now);
             }
         }
         Axis& axis = state_.axis[a];
         if (!(state_.crossed >> a & 1u)) return;
         state_.crossed &= ~(1u << a);
         if (output.edge_listener) flush_edges(a);
-        output.listeners.notify_crossed(axis.watch, axis.count, now);
+        listeners_.of_axis[a].notify_crossed(axis.watch, axis.count, now);
     });
 }
 
@@ -237,61 +232,9 @@ void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
     requests_.forget_specials();
     requests_.make_stale();
     const Instant now = kernel_.now();
-    if (axis.watch[slot].left(count_at(a, now))) state_.crossed |= 1u << a;
+    if (axis.watch[slot].left(law_.count_at(a, now))) state_.crossed |= 1u << a;
     // In an event of the chip settle() follows anyway; otherwise it is requested at this very instant.
     kernel_.schedule(id_, state_.crossed != 0 ? now + Duration{1} : now);
-}
-
-std::int64_t Chip::count_at(int a, Instant t) const {
-    const Axis& axis = state_.axis[a];
-    const bool on_path = (state_.chain >> a & 1u) != 0;
-    const int generator = on_path ? state_.master : a;
-    const Generator& gen = state_.axis[generator].gen;
-    const std::int64_t ticks = tick_of(t) - gen.at - gen.wait;
-    if (gen.drive == Drive::idle || ticks <= 0) return axis.count;
-    const std::int64_t pulses = pulses_of(gen, phase_in(generator, ticks));
-    if (!on_path) return axis.count + pulses * axis.direction;
-    const std::array<std::int64_t, 3> steps = path_steps(pulses);
-    for (int i = 0; i < state_.path.command.count; ++i)
-        if (state_.path.command.axis[i] == a) return axis.count + steps[i];
-    return axis.count;
-}
-
-/// Present rate in pulses/s, signed; on an arc that of the tangent.
-double Chip::rate_of(int a, Instant t) const {
-    const Axis& axis = state_.axis[a];
-    const bool on_path = (state_.chain >> a & 1u) != 0;
-    const int generator = on_path ? state_.master : a;
-    const Generator& gen = state_.axis[generator].gen;
-    if (gen.drive == Drive::idle || state_.halted(generator)) return 0;
-    const std::int64_t ticks = std::max<std::int64_t>(0, tick_of(t) - gen.at - gen.wait);
-    const double phase =
-        rules::clock_hz * static_cast<double>(gen.walks ? walk(generator, ticks, far).law.speed : gen.speed);
-    if (!on_path) return phase / static_cast<double>(gen.range_now) * axis.direction;
-    const Path& path = state_.path;
-    const double r1 = static_cast<double>(path.range_for[0]);
-    const double extra = path.command.count == 2 ? static_cast<double>(path.range_for[1]) - r1 : 0.0;
-    for (int i = 0; i < path.command.count; ++i) {
-        if (path.command.axis[i] != a) continue;
-        if (path.command.pattern()) return phase / r1 * pattern_share(i);
-        const double sign = path_direction(i);
-        if (path.command.arc()) {
-            const int s = rules::octants[path.arc.octant].short_axis;
-            const auto at = path.arc.after(pulses_of(gen, phase_in(generator, ticks)));
-            const double slope = std::min(
-                1.0, std::fabs(static_cast<double>(at[s])) / std::max(1.0, std::fabs(static_cast<double>(at[1 - s]))));
-            const double basic = phase / (r1 + extra * slope);
-            return sign * (s == i ? basic : basic * slope);
-        }
-        const double max_p = static_cast<double>(path.max_pulses);
-        double slope = 0;
-        if (extra != 0)
-            slope = static_cast<double>(
-                        std::min(rules::magnitude(path.command.finish[0]), rules::magnitude(path.command.finish[1]))) /
-                    max_p;
-        return phase / (r1 + extra * slope) * static_cast<double>(path.command.finish[i]) / max_p;
-    }
-    return 0;
 }
 
 std::int64_t Chip::pulses_made(int axis) {
@@ -300,7 +243,7 @@ std::int64_t Chip::pulses_made(int axis) {
 std::int32_t Chip::lp(int axis) const {
     // Between events the generators stay behind: pulses since then are counted but not yet executed.
     const Axis& own = state_.axis[axis];
-    return stepped(own, own.lp, count_at(axis, kernel_.now()) - own.count);
+    return stepped(own, own.lp, law_.count_at(axis, kernel_.now()) - own.count);
 }
 std::int32_t Chip::ep(int axis) const {
     return encoder_position(state_.axis[axis], axis);

@@ -14,10 +14,11 @@
 #include <cstdint>
 #include <motionrack/cards/mcx314/chip/chip_wires.hpp>
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
+#include <motionrack/cards/mcx314/chip/motion_law.hpp>
 #include <motionrack/cards/mcx314/chip/options.hpp>
+#include <motionrack/cards/mcx314/chip/pulse_listeners.hpp>
 #include <motionrack/cards/mcx314/chip/state.hpp>
 #include <motionrack/sim/kernel.hpp>
-#include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/position_function.hpp>
 #include <motionrack/sim/register_device.hpp>
 #include <optional>
@@ -90,16 +91,15 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     /// Pulses of one axis.
     class Output final : public sim::PositionFunction {
       public:
-        std::int64_t count(Instant t) const override { return chip->count_at(axis, t); }
-        double rate(Instant t) const override { return chip->rate_of(axis, t); }
+        std::int64_t count(Instant t) const override { return chip->law_.count_at(axis, t); }
+        double rate(Instant t) const override { return chip->law_.rate_of(axis, t); }
         void watch(int slot, std::int64_t below, std::int64_t above) override { chip->watch(axis, slot, below, above); }
-        int add_listener(sim::PositionListener& listener) override;
+        int add_listener(sim::PositionListener& listener) override { return chip->listeners_.add(axis, listener); }
         void set_edge_listener(sim::EdgeListener* listener) override { chip->set_edge_listener(axis, listener); }
         void deliver_edges() override { chip->deliver_edges(axis); }
 
         Chip* chip = nullptr;
         int axis = 0;
-        sim::Listeners listeners;
         sim::EdgeListener* edge_listener = nullptr;
         sim::EdgeBatch batch;
         std::int64_t batch_tick = 0;  ///< tick of its origin
@@ -121,7 +121,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     };
 
     // chip.cpp: time, wires, listeners
-    std::int64_t tick_of(Instant t) const { return t.count() / rules::tick_100ps; }
     void advance_to(std::int64_t tick);
     void work_to(std::int64_t tick);
     void reschedule();
@@ -132,8 +131,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void update_interrupt();
     void note_rates();
     void notify_listeners(Instant now);
-    std::int64_t count_at(int axis, Instant t) const;
-    double rate_of(int axis, Instant t) const;
     void watch(int axis, int slot, std::int64_t below, std::int64_t above);
     void set_edge_listener(int axis, sim::EdgeListener* listener);
     void deliver_edges(int axis);
@@ -141,7 +138,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     // wires.cpp: inputs and outputs
     void set_wants(int axis);
     void update_outputs();
-    PulseMark mark_at(int a, std::int64_t tick) const;
     int pulse_level(int a, int which, bool pulse, int direction) const;
     int output_level(int a, int output) const;
     int drive_level(int a, std::int64_t tick) const;
@@ -151,7 +147,9 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     // encoder.cpp: EP
     void encoder_crossed(int axis, Instant now);
     void encoder_lines(int axis, Instant now);
-    bool encoder_connected(int a) const { return listeners_[a].motion && !kernel_.forced(wires_.encoders[a][0]); }
+    bool encoder_connected(int a) const {
+        return encoder_listeners_[a].motion && !kernel_.forced(wires_.encoders[a][0]);
+    }
     void watch_encoder(int axis);
     std::int32_t encoder_position(const Axis& axis, int a) const;
     void set_encoder_position(int a, std::int32_t value);
@@ -173,8 +171,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void compare(int a);
     void begin_segment(const PathCommand& command);
     void mark_pulse(int a, unsigned stepped, const PulseMoment& at);
-    bool path_finished() const;
-    int path_direction(int i) const;
 
     // pattern.cpp: bit patterns
     void pattern_command(int code);
@@ -184,7 +180,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     int step_pattern();
     void look_ahead_in_pattern();
     int pattern_counter() const;
-    double pattern_share(int i) const;
 
     // machines.cpp: the present states of the map's state machines
     int drive_state(int a) const;
@@ -215,14 +210,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     // horizon.cpp: closed form between interesting ticks
     void find_next_tick(int a);
     std::int64_t pulses_to_special(int a) const;
-    std::int64_t pulses_until_steps(int generator, int axis, std::int64_t steps) const;
-    std::int64_t pulses_to_final(int a) const;
     std::int64_t steps_to_threshold(int a, int direction) const;
-    bool walks_pulses(int a) const;
-    std::int64_t phase_for(const Generator& gen, std::int64_t pulses) const;
-    std::int64_t extra_steps(std::int64_t pulses) const;
-    std::int64_t pulses_of(const Generator& gen, std::int64_t added) const;
-    std::array<std::int64_t, 3> path_steps(std::int64_t pulses) const;
     void skip_to(std::int64_t tick);
     void bring_up(int a, std::int64_t tick);
     void skip_phase(int a, std::int64_t ticks);
@@ -230,12 +218,9 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void look_at_in_position();
 
     // ramp.cpp: many unobserved speed steps at once
-    bool some_unheard() const { return (listened_ | state_.following) != (1u << axes_of_chip) - 1; }
+    bool some_unheard() const { return (listeners_.heard | state_.following) != (1u << axes_of_chip) - 1; }
     bool may_walk(int a) const;
-    Walk walk(int a, std::int64_t tick_limit, std::int64_t phase_limit) const;
     void walk_ahead(int a, std::int64_t phase_limit);
-    std::int64_t phase_in(int a, std::int64_t ticks) const;
-    PulseMoment last_pulse(int a, std::int64_t pulses, std::int64_t ticks) const;
     void bring_along(int a, std::int64_t to);
 
     // edges.cpp
@@ -318,10 +303,11 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     ChipWires wires_;
     State state_{};
     EventRequests requests_{state_};
+    MotionLaw law_{state_};
+    PulseListeners listeners_;
     std::int64_t limit_begins_ = 0;  // 1: software limits begin at COMP+, not beyond
     std::array<Output, axes_of_chip> outputs_;
-    std::array<EncoderListener, axes_of_chip> listeners_;
-    unsigned listened_ = 0;                 // axes whose position or edges have listeners
+    std::array<EncoderListener, axes_of_chip> encoder_listeners_;
     unsigned moved_last_ = 0;               // axes that stepped in the present basic pulse
     std::array<int, axes_of_chip> went_{};  // direction of each of these steps
 };

@@ -102,7 +102,7 @@ class LongAxis {
 
 bool Chip::edges_wanted(int a) const {
     bool wanted = false;
-    for_each_axis(state_.moved_by(a) & listened_, [&](int i) { wanted = wanted || outputs_[i].edge_listener; });
+    for_each_axis(state_.moved_by(a) & listeners_.heard, [&](int i) { wanted = wanted || outputs_[i].edge_listener; });
     return wanted;
 }
 
@@ -112,7 +112,8 @@ void Chip::set_edge_listener(int axis, sim::EdgeListener* listener) {
     outputs_[axis].edge_listener = listener;
     requests_.forget_specials();
     requests_.make_stale();
-    listened_ = listener || outputs_[axis].listeners.size() > 0 ? listened_ | 1u << axis : listened_ & ~(1u << axis);
+    listeners_.heard = listener || listeners_.of_axis[axis].size() > 0 ? listeners_.heard | 1u << axis
+                                                                       : listeners_.heard & ~(1u << axis);
     outputs_[axis].batch.size = 0;
 }
 

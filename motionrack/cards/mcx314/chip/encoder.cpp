@@ -22,7 +22,7 @@ sim::Edges edges_of(const Axis& axis) {
 }  // namespace
 
 void Chip::connect_encoder(int a, sim::PositionFunction& counts) {
-    EncoderListener& listener = listeners_[a];
+    EncoderListener& listener = encoder_listeners_[a];
     MOTIONRACK_ASSERT(listener.motion == nullptr);
     listener.motion = &counts;
     listener.slot = counts.add_listener(listener);
@@ -31,7 +31,7 @@ void Chip::connect_encoder(int a, sim::PositionFunction& counts) {
 
 std::int32_t Chip::encoder_position(const Axis& axis, int a) const {
     if (!encoder_connected(a)) return axis.ep;
-    const std::int64_t position = axis.encoder.value(*listeners_[a].motion, kernel_.now());
+    const std::int64_t position = axis.encoder.value(*encoder_listeners_[a].motion, kernel_.now());
     if (axis.ring) return stepped(axis, 0, position);
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(position));
 }
@@ -44,13 +44,13 @@ void Chip::set_encoder_position(int a, std::int32_t value) {
     axis.encoder = sim::ClosedFormCounter(edges_of(axis), em::EPINV.test(state_.extension[a].em6));
     if (!encoder_connected(a)) return;
     const std::int64_t position = axis.ring ? std::int64_t{static_cast<std::uint32_t>(value)} : value;
-    axis.encoder.set(position, *listeners_[a].motion, kernel_.now());
+    axis.encoder.set(position, *encoder_listeners_[a].motion, kernel_.now());
 }
 
 /// Subscribes to the encoder at the next count that may change a comparison with EP.
 void Chip::watch_encoder(int a) {
     const Axis& axis = state_.axis[a];
-    const EncoderListener& listener = listeners_[a];
+    const EncoderListener& listener = encoder_listeners_[a];
     if (!listener.motion) return;
     if (!encoder_connected(a) || !wr2::CMPSL.test(axis.wr2) || !compares(axis)) {
         listener.motion->watch(listener.slot, sim::unwatched_below, sim::unwatched_above);
@@ -71,7 +71,7 @@ void Chip::encoder_crossed(int a, Instant now) {
 }
 
 void Chip::take_encoder(int a, bool taken) {
-    EncoderListener& listener = listeners_[a];
+    EncoderListener& listener = encoder_listeners_[a];
     if (!listener.motion) return;
     const Instant now = kernel_.now();
     catch_up(now);

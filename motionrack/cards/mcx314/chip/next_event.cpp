@@ -33,7 +33,7 @@ void Chip::find_next_tick(int a) {
         if (some_unheard()) walk_ahead(a, far);
         return;
     }
-    const std::int64_t phase = phase_for(gen, gen.next_special - gen.n) - gen.acc;
+    const std::int64_t phase = law_.phase_for(gen, gen.next_special - gen.n) - gen.acc;
     gen.plain = ticks < far && ticks * gen.speed < phase;
     if (!gen.plain)
         gen.next_tick = state_.tick + std::max<std::int64_t>(1, quick_div(phase + gen.speed - 1, gen.speed));
@@ -46,8 +46,8 @@ std::int64_t Chip::pulses_to_special(int a) const {
     const Axis& own = state_.axis[a];
     const Generator& gen = own.gen;
     if (state_.halted(a)) return far;
-    if (walks_pulses(a)) return 1;
-    std::int64_t pulses = pulses_to_final(a);
+    if (law_.walks_pulses(a)) return 1;
+    std::int64_t pulses = law_.pulses_to_final(a);
     if (gen.no_triangle) pulses = std::min(pulses, pulses_to_half(own));
     if (gen.drive == Drive::fixed) pulses = std::min(pulses, std::int64_t{own.pulses} - gen.n);
     if (gen.drive != Drive::path) {
@@ -57,43 +57,12 @@ std::int64_t Chip::pulses_to_special(int a) const {
     const PathCommand& command = state_.path.command;
     pulses = std::min(pulses, command.arc() ? state_.path.arc.pulses_to_event() : state_.path.max_pulses - gen.n);
     for (int i = 0; i < command.count; ++i) {
-        const int direction = path_direction(i);
+        const int direction = law_.path_direction(i);
         if (direction == 0) continue;
         const std::int64_t steps = steps_to_threshold(command.axis[i], direction);
-        if (steps < far) pulses = std::min(pulses, pulses_until_steps(a, i, steps));
+        if (steps < far) pulses = std::min(pulses, law_.pulses_until_steps(a, i, steps));
     }
     return std::max<std::int64_t>(1, pulses);
-}
-
-/// Bit patterns, single steps and constant vector speed of three axes have no closed form here: their pulses are
-/// executed one by one.
-bool Chip::walks_pulses(int a) const {
-    const Path& path = state_.path;
-    if (state_.axis[a].gen.drive != Drive::path) return false;
-    if (path.command.pattern() || path.command.steps != 0) return true;
-    return path.command.count == 3 &&
-           (path.range_for[1] != path.range_for[0] || path.range_for[2] != path.range_for[0]);
-}
-
-std::int64_t Chip::pulses_to_final(int a) const {
-    const Axis& axis = state_.axis[a];
-    const Generator& gen = axis.gen;
-    std::int64_t total = 0;
-    if (gen.final || gen.drive == Drive::continuous) return far;
-    if (gen.drive == Drive::path) {
-        if (!state_.decel_enabled || state_.queued || (!state_.path.command.line() && !gen.manual)) return far;
-        total = state_.path.max_pulses;
-    } else {
-        total = axis.pulses;
-    }
-    if (gen.manual) return std::max<std::int64_t>(1, std::int64_t{axis.decel_point} - gen.n);
-    const std::int64_t left = total - gen.n - axis.offset;
-    if (gen.weighted) return pulses_to_weighted_final(axis, left);
-    // P - n <= accel_pulses + AO, where accel_pulses increases, stays or decreases with n.
-    if (gen.ramp > 0)
-        return std::max<std::int64_t>(1, rules::ceil_div(std::max<std::int64_t>(0, left - gen.accel_pulses), 2));
-    if (gen.ramp == 0) return std::max<std::int64_t>(1, left - gen.accel_pulses);
-    return left <= gen.accel_pulses ? 1 : std::max<std::int64_t>(1, left);
 }
 
 /// Steps of an axis in `direction` until a limit, a comparison or a watched count is passed (>= 1), far if never.
@@ -101,7 +70,7 @@ std::int64_t Chip::steps_to_threshold(int a, int direction) const {
     const Axis& axis = state_.axis[a];
     if (axis.pulses_wanted || (wr1::PULSE.test(axis.wr1) && !rr3::PULSE.test(axis.flags))) return 1;
     std::int64_t steps = far;
-    for (int i = 0; i < outputs_[a].listeners.size(); ++i) {
+    for (int i = 0; i < listeners_.of_axis[a].size(); ++i) {
         const sim::Range& watch = axis.watch[i];
         if (direction > 0 && watch.above != sim::unwatched_above) steps = std::min(steps, watch.above - axis.count);
         if (direction < 0 && watch.below != sim::unwatched_below) steps = std::min(steps, axis.count - watch.below);
@@ -109,94 +78,6 @@ std::int64_t Chip::steps_to_threshold(int a, int direction) const {
     if (compares(axis) && !wr2::CMPSL.test(axis.wr2))
         steps = std::min(steps, steps_to_comparison(axis, axis.lp, direction));
     return std::max<std::int64_t>(1, steps);
-}
-
-/// Basic pulses of the path until AX(i+1) has made `steps` more steps, far if that is beyond its next event.
-std::int64_t Chip::pulses_until_steps(int a, int i, std::int64_t steps) const {
-    const Path& path = state_.path;
-    if (!path.command.arc()) {
-        const std::int64_t p = rules::magnitude(path.command.finish[i]);
-        const std::int64_t wanted = rules::line_steps(state_.axis[a].gen.n, p, path.max_pulses) + steps;
-        return wanted > p ? far : rules::line_pulse_of_step(wanted, p, path.max_pulses) - state_.axis[a].gen.n;
-    }
-    const rules::Octant& octant = rules::octants[path.arc.octant];
-    if (octant.short_axis == i) return steps;
-    auto moved = [&](std::int64_t pulses) { return rules::magnitude(path.arc.after(pulses)[i] - path.arc.at[i]); };
-    std::int64_t low = 0, high = path.arc.pulses_to_event() - 1;
-    if (high < 1 || moved(high) < steps) return far;
-    while (low + 1 < high) {
-        const std::int64_t middle = (low + high) / 2;
-        (moved(middle) < steps ? low : high) = middle;
-    }
-    return high;
-}
-
-// ---- phase and pulses
-
-/// Number of the next `pulses` basic pulses that step two axes (paths of two axes).
-std::int64_t Chip::extra_steps(std::int64_t pulses) const {
-    const Path& path = state_.path;
-    if (pulses <= 0) return 0;
-    if (path.command.arc()) {
-        const auto l = static_cast<std::size_t>(1 - rules::octants[path.arc.octant].short_axis);
-        return rules::magnitude(path.arc.after(pulses)[l] - path.arc.at[l]);
-    }
-    const std::int64_t n = state_.axis[state_.master].gen.n;
-    const std::int64_t p = std::min(rules::magnitude(path.command.finish[0]), rules::magnitude(path.command.finish[1]));
-    return rules::line_steps(n + pulses, p, path.max_pulses) - rules::line_steps(n, p, path.max_pulses);
-}
-
-/// Required sum of acc and the speed until the next `pulses` basic pulses (>= 1) are output.
-std::int64_t Chip::phase_for(const Generator& gen, std::int64_t pulses) const {
-    if (gen.drive != Drive::path) return pulses * gen.range_now;
-    const auto& range = state_.path.range_for;
-    std::int64_t phase = gen.range_now + (pulses - 1) * range[0];
-    if (range[1] != range[0] && state_.path.command.count == 2)
-        phase += (range[1] - range[0]) * extra_steps(pulses - 1);
-    return phase;
-}
-
-/// Basic pulses in the next plain working ticks, whose speeds add up to `added`.
-std::int64_t Chip::pulses_of(const Generator& gen, std::int64_t added) const {
-    const std::int64_t phase = gen.acc + added;
-    if (phase < gen.range_now) return 0;
-    if (gen.drive != Drive::path) return quick_div(phase, gen.range_now);
-    const auto& range = state_.path.range_for;
-    if (range[1] == range[0] || state_.path.command.count != 2) return 1 + quick_div(phase - gen.range_now, range[0]);
-    std::int64_t low = 1 + quick_div(phase - gen.range_now, std::max(range[0], range[1]));
-    std::int64_t high = 2 + quick_div(phase - gen.range_now, std::min(range[0], range[1]));
-    high = std::min(high, gen.next_special - gen.n + 1);  // as planned: beyond it, an arc has another octant
-    low = std::max<std::int64_t>(1, std::min(low, high - 1));
-    while (low + 1 < high) {
-        const std::int64_t middle = low + (high - low) / 2;
-        (phase_for(gen, middle) <= phase ? low : high) = middle;
-    }
-    return low;
-}
-
-/// Steps of AX1 .. AX3 in the next `pulses` basic pulses, signed.
-std::array<std::int64_t, 3> Chip::path_steps(std::int64_t pulses) const {
-    const Path& path = state_.path;
-    std::array<std::int64_t, 3> steps{};
-    if (path.command.pattern()) {
-        const int end = static_cast<int>(std::min<std::int64_t>(Pattern::length, state_.pattern.place + pulses));
-        for (int at = state_.pattern.place; at < end && !state_.pattern.ends(path.command.count, at); ++at)
-            for (int i = 0; i < path.command.count; ++i) steps[i] += state_.pattern.step(i, at);
-        return steps;
-    }
-    if (path.command.arc()) {
-        const auto to = path.arc.after(pulses);
-        steps[0] = to[0] - path.arc.at[0];
-        steps[1] = path.arc.clockwise ? path.arc.at[1] - to[1] : to[1] - path.arc.at[1];
-        return steps;
-    }
-    const std::int64_t n = state_.axis[state_.master].gen.n;
-    for (int i = 0; i < path.command.count; ++i) {
-        const std::int64_t p = rules::magnitude(path.command.finish[i]);
-        const std::int64_t made = rules::line_steps(n + pulses, p, path.max_pulses) - path.made[i];
-        steps[i] = path.command.finish[i] < 0 ? -made : made;
-    }
-    return steps;
 }
 
 // ---- many plain ticks at once
@@ -226,11 +107,11 @@ void Chip::skip_phase(int a, std::int64_t ticks) {
     gen.wait -= static_cast<std::int32_t>(waited);
     ticks -= waited;
     if (ticks <= 0) return;
-    const std::int64_t pulses = pulses_of(gen, ticks * gen.speed);
+    const std::int64_t pulses = law_.pulses_of(gen, ticks * gen.speed);
     if (pulses > 0 && edges_wanted(a)) make_edges(a, waited, pulses);
     gen.acc += ticks * gen.speed;
     if (pulses == 0) return;
-    gen.acc -= phase_for(gen, pulses);
+    gen.acc -= law_.phase_for(gen, pulses);
     skip_pulses(a, pulses, {gen.at + waited + ticks, gen.acc, gen.speed});
 }
 
@@ -248,8 +129,8 @@ void Chip::skip_pulses(int a, std::int64_t pulses, const PulseMoment& last) {
     };
     unsigned stepped = 1u << a;
     if (gen.drive == Drive::path) {
-        const std::array<std::int64_t, 3> steps = path_steps(pulses);
-        const std::array<std::int64_t, 3> before = path_steps(pulses - 1);
+        const std::array<std::int64_t, 3> steps = law_.path_steps(pulses);
+        const std::array<std::int64_t, 3> before = law_.path_steps(pulses - 1);
         stepped = 0;
         int count = 0;
         for (int i = 0; i < state_.path.command.count; ++i) {

@@ -89,12 +89,4 @@ void Chip::look_ahead_in_pattern() {
     }
 }
 
-/// Share of the running word's basic pulses that step AX(i+1), signed.
-double Chip::pattern_share(int i) const {
-    const Pattern& pattern = state_.pattern;
-    int steps = 0, at = 0;
-    for (; at < Pattern::length && !pattern.ends(state_.path.command.count, at); ++at) steps += pattern.step(i, at);
-    return pattern.place < Pattern::length && at > 0 ? static_cast<double>(steps) / at : 0.0;
-}
-
 }  // namespace motionrack::mcx314

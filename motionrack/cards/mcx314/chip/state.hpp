@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <motionrack/base/time.hpp>
 #include <motionrack/cards/mcx314/chip/extension.hpp>
 #include <motionrack/cards/mcx314/chip/fields.hpp>
 #include <motionrack/cards/mcx314/ramp.hpp>
@@ -234,6 +235,11 @@ static_assert(std::has_unique_object_representations_v<State>, "equal chips have
 
 /// Input pins of an axis, in the order of RR4 and RR5, then the limits.
 enum class Pin : std::uint8_t { in0, in1, in2, in3, exp_plus, exp_minus, in_position, alarm, limit_plus, limit_minus };
+
+/// The last tick up to `t`.
+constexpr std::int64_t tick_of(Instant t) {
+    return t.count() / rules::tick_100ps;
+}
 
 /// Calls f(axis) for every axis in `mask`, X first.
 template <class F>

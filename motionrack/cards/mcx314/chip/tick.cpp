@@ -51,7 +51,7 @@ void Chip::work(int a) {
     gen.full_tick = false;
     if (inputs(a)) return;
     if (gen.drive == Drive::fixed && gen.n >= state_.axis[a].pulses) return end(a);
-    if (gen.drive == Drive::path && path_finished() && segment_end(a)) return;
+    if (gen.drive == Drive::path && law_.path_finished() && segment_end(a)) return;
     if (state_.halted(a)) return;
     gen.acc += gen.speed;
     bool step_made = false;
@@ -174,7 +174,7 @@ bool Chip::pulse(int a) {
     for (int i = 0; i < axes_of_chip; ++i) beyond = beyond || ((moved >> i & 1) && beyond_software_limit(i));
     if (stop(a, beyond, false)) return true;
     if (gen.drive == Drive::fixed && gen.n >= state_.axis[a].pulses) return end(a), true;
-    if (gen.drive == Drive::path && path_finished()) return segment_end(a);
+    if (gen.drive == Drive::path && law_.path_finished()) return segment_end(a);
     check_final(a);
     if (gen.no_triangle) avoid_triangle(a);
     return false;
@@ -192,7 +192,7 @@ int Chip::step_axes(int a) {
         for (int i = 0; i < 2; ++i) {
             const int axis = path.command.axis[i];
             if (step[i] != 0) move(axis, step[i], state_.tick), ++moved;
-            state_.axis[axis].direction = path_direction(i);
+            state_.axis[axis].direction = law_.path_direction(i);
         }
         if (path.arc.octant != octant) {
             state_.axis[a].gen.full_tick = true;
@@ -222,7 +222,7 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
     went_[a] = direction;
     if (axis.steps_compared()) compare(a);
     if (outputs_[a].edge_listener) add_edge(a, tick_now, direction, axis.count);
-    for (int i = 0; i < outputs_[a].listeners.size(); ++i)
+    for (int i = 0; i < listeners_.of_axis[a].size(); ++i)
         if (axis.watch[i].left(axis.count)) state_.crossed |= 1u << a;
 }
 
@@ -235,21 +235,6 @@ void Chip::mark_pulse(int a, unsigned stepped, const PulseMoment& at) {
         axis.mark = {at.when(), stepped >> i & 1 ? static_cast<std::int32_t>(at.speed) : 0,
                      static_cast<std::int32_t>(gen.range_now), axis.direction, 0};
     });
-}
-
-bool Chip::path_finished() const {
-    if (state_.path.command.pattern()) return state_.pattern.place == Pattern::length;
-    return state_.path.command.arc() ? state_.path.arc.finished
-                                     : state_.axis[state_.master].gen.n >= state_.path.max_pulses;
-}
-
-/// Direction of AX(i+1); 0: it is stationary.
-int Chip::path_direction(int i) const {
-    const PathCommand& command = state_.path.command;
-    if (command.pattern()) return 0;
-    if (command.line()) return command.finish[i] > 0 ? 1 : command.finish[i] < 0 ? -1 : 0;
-    const int d = rules::direction_in_octant(state_.path.arc.octant, i);
-    return i == 1 && state_.path.arc.clockwise ? -d : d;
 }
 
 /// Ends the running segment: the queued one takes over, or the drive ends (returns true).
@@ -265,7 +250,7 @@ bool Chip::segment_end(int a) {
     gen.full_tick = true;
     requests_.law_changed_of(a);
     if (wr5::CIINT.test(state_.wr5)) state_.path_interrupt = true;
-    if (path_finished()) return end(a), true;
+    if (law_.path_finished()) return end(a), true;
     check_final(a);
     return false;
 }
@@ -292,7 +277,7 @@ void Chip::begin_segment(const PathCommand& command) {
         path.range_for[2] = command.count == 3 ? range_of(2) : path.range_for[1];
     }
     for (int i = 0; i < command.count; ++i)
-        if (const int d = path_direction(i); d != 0) state_.axis[command.axis[i]].direction = d;
+        if (const int d = law_.path_direction(i); d != 0) state_.axis[command.axis[i]].direction = d;
 }
 
 // ---- start of the final deceleration

@@ -36,33 +36,6 @@ void Chip::update_outputs() {
         for (int i = 0; i < 4; ++i) kernel_.set_wire(wires_.general_outputs[a][i], state_.wr4 >> (4 * a + i) & 1);
 }
 
-/// State of the axis' last pulse at tick `to`.
-PulseMark Chip::mark_at(int a, std::int64_t to) const {
-    const Axis& axis = state_.axis[a];
-    const bool on_path = (state_.chain >> a & 1u) != 0;
-    const int generator = on_path ? state_.master : a;
-    const Generator& gen = state_.axis[generator].gen;
-    const std::int64_t ticks = to - gen.at - gen.wait;
-    if (gen.drive == Drive::idle || ticks <= 0) return axis.mark;
-    const std::int64_t pulses = pulses_of(gen, phase_in(generator, ticks));
-    if (pulses == 0) return axis.mark;
-    const PulseMoment last = last_pulse(generator, pulses, ticks);
-    PulseMark mark{last.when(), static_cast<std::int32_t>(last.speed), static_cast<std::int32_t>(gen.range_now),
-                   axis.direction, 0};
-    if (!on_path) return mark;
-    const auto after = path_steps(pulses), before = path_steps(pulses - 1);
-    int stepped = 0;
-    bool own = false;
-    for (int i = 0; i < state_.path.command.count; ++i) {
-        if (after[i] == before[i]) continue;
-        ++stepped;
-        if (state_.path.command.axis[i] == a) own = true;
-    }
-    if (!own) return state_.path.command.mask() >> a & 1u ? PulseMark{} : axis.mark;
-    mark.range = static_cast<std::int32_t>(state_.path.range_for[static_cast<std::size_t>(stepped - 1)]);
-    return mark;
-}
-
 int Chip::pulse_level(int a, int which, bool pulse, int direction) const {
     const Axis& axis = state_.axis[a];
     const bool one_pulse = wr2::PLSMD.test(axis.wr2), negative = wr2::PLSL.test(axis.wr2),
@@ -91,7 +64,7 @@ int Chip::level_at(int pin, Instant now) const {
     if (which == 2) return drive_level(a, tick_of(now));
     if (which >= 8) return output_level(a, which - 8);
     const std::int64_t at = tick_of(now);
-    const PulseMark mark = mark_at(a, at);
+    const PulseMark mark = law_.mark_at(a, at);
     return pulse_level(a, which, mark.active(at), mark.direction);
 }
 
