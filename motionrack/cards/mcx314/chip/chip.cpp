@@ -159,7 +159,7 @@ void Chip::catch_up_before(Instant now) {
 void Chip::sync(Instant now) {
     advance_to(tick_of(now));
     for (int a = 0; a < axes_of_chip; ++a)
-        if (outputs_[a].edge_listener) flush_edges(a);
+        if (edges_.wanted(a)) edges_.flush(a);
 }
 
 void Chip::on_wire(int pin, int wire_level, Instant now) {
@@ -208,9 +208,8 @@ void Chip::note_rates() {
 void Chip::notify_listeners(Instant now) {
     const unsigned changed = requests_.take_changed();
     for_each_axis((changed | state_.crossed) & listeners_.heard, [&](int a) {
-        Output& output = outputs_[a];
         if (changed >> a & 1u) {
-            if (output.edge_listener) flush_edges(a);
+            if (edges_.wanted(a)) edges_.flush(a);
             if (listeners_.of_axis[a].size() > 0) {
                 const double rate = law_.rate_of(a, now);
                 const auto before = std::bit_cast<double>(
@@ -221,9 +220,24 @@ void Chip::notify_listeners(Instant now) {
         Axis& axis = state_.axis[a];
         if (!(state_.crossed >> a & 1u)) return;
         state_.crossed &= ~(1u << a);
-        if (output.edge_listener) flush_edges(a);
+        if (edges_.wanted(a)) edges_.flush(a);
         listeners_.of_axis[a].notify_crossed(axis.watch, axis.count, now);
     });
+}
+
+void Chip::set_edge_listener(int a, sim::EdgeListener* listener) {
+    advance_to(tick_of(kernel_.now()));
+    edges_.set_listener(a, listener);
+    requests_.forget_specials();
+    requests_.make_stale();
+    listeners_.heard =
+        listener || listeners_.of_axis[a].size() > 0 ? listeners_.heard | 1u << a : listeners_.heard & ~(1u << a);
+}
+
+void Chip::deliver_edges(int a) {
+    if (!edges_.wanted(a)) return;
+    advance_to(tick_of(kernel_.now()));
+    edges_.flush(a);
 }
 
 void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {

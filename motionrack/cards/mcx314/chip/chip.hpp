@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <motionrack/cards/mcx314/chip/chip_wires.hpp>
+#include <motionrack/cards/mcx314/chip/edge_stream.hpp>
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
 #include <motionrack/cards/mcx314/chip/motion_law.hpp>
 #include <motionrack/cards/mcx314/chip/options.hpp>
@@ -100,14 +101,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
 
         Chip* chip = nullptr;
         int axis = 0;
-        sim::EdgeListener* edge_listener = nullptr;
-        sim::EdgeBatch batch;
-        std::int64_t batch_tick = 0;  ///< tick of its origin
-    };
-    /// Pulses at one speed and range: the first at tick `at`, the others at intervals of `quotient` ticks, or one more
-    /// when `slack` runs out.
-    struct EvenPulses {
-        std::int64_t at = 0, quotient = 0, remainder = 0, slack = 0, speed = 1;
     };
     /// Notified when an encoder passes a comparison value.
     class EncoderListener final : public sim::PositionListener {
@@ -223,19 +216,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void walk_ahead(int a, std::int64_t phase_limit);
     void bring_along(int a, std::int64_t to);
 
-    // edges.cpp
-    bool edges_wanted(int a) const;
-    void make_edges(int a, std::int64_t ticks, std::int64_t pulses);
-    EvenPulses even_pulses(const Generator& gen, std::int64_t waited) const;
-    void make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direction);
-    void make_led_edges(int i, EvenPulses run, std::int64_t pulses);
-    void make_arc_edges(EvenPulses run, std::int64_t pulses);
-    void make_varied_edges(std::int64_t waited, std::int64_t pulses);
-    void make_varied_arc_edges(std::int64_t waited, std::int64_t pulses);
-    void add_edge(int a, std::int64_t tick, int direction, std::int64_t count);
-    void begin_batch(int a, std::int64_t tick, int direction, std::int64_t count);
-    void flush_edges(int axis);
-
     // registers.cpp
     void reset();
     void write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask);
@@ -305,6 +285,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     EventRequests requests_{state_};
     MotionLaw law_{state_};
     PulseListeners listeners_;
+    EdgeStream edges_{state_, listeners_};
     std::int64_t limit_begins_ = 0;  // 1: software limits begin at COMP+, not beyond
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderListener, axes_of_chip> encoder_listeners_;

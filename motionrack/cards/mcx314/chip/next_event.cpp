@@ -108,7 +108,7 @@ void Chip::skip_phase(int a, std::int64_t ticks) {
     ticks -= waited;
     if (ticks <= 0) return;
     const std::int64_t pulses = law_.pulses_of(gen, ticks * gen.speed);
-    if (pulses > 0 && edges_wanted(a)) make_edges(a, waited, pulses);
+    if (pulses > 0 && edges_.wanted_of(a)) edges_.make(a, waited, pulses);
     gen.acc += ticks * gen.speed;
     if (pulses == 0) return;
     gen.acc -= law_.phase_for(gen, pulses);

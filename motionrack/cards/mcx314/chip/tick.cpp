@@ -221,7 +221,7 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
     moved_last_ |= 1u << a;
     went_[a] = direction;
     if (axis.steps_compared()) compare(a);
-    if (outputs_[a].edge_listener) add_edge(a, tick_now, direction, axis.count);
+    if (edges_.wanted(a)) edges_.add(a, tick_now, direction, axis.count);
     for (int i = 0; i < listeners_.of_axis[a].size(); ++i)
         if (axis.watch[i].left(axis.count)) state_.crossed |= 1u << a;
 }

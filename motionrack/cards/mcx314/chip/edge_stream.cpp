@@ -1,6 +1,6 @@
 // Edges for listeners: the instants follow from the generator's phase, the axes from the path.
 #include <cstring>
-#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/edge_stream.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -98,45 +98,48 @@ class LongAxis {
     std::int64_t threshold_ = 0;  // m changes once q is above it, or no longer above it
     int way_ = 0;
 };
+
+/// The generator's next basic pulses at constant speed and range: pulse j occurs when acc has grown by j * R.
+EvenPulses even_pulses(const Generator& gen, std::int64_t waited) {
+    const std::int64_t need = gen.range_now - gen.acc;
+    EvenPulses run;
+    run.speed = gen.speed;
+    run.quotient = gen.range_now / gen.speed;
+    run.remainder = gen.range_now % gen.speed;
+    const std::int64_t ticks = rules::ceil_div(need, gen.speed);
+    run.at = gen.at + waited + ticks;
+    run.slack = ticks * gen.speed - need;
+    return run;
+}
+
 }  // namespace
 
-bool Chip::edges_wanted(int a) const {
-    bool wanted = false;
-    for_each_axis(state_.moved_by(a) & listeners_.heard, [&](int i) { wanted = wanted || outputs_[i].edge_listener; });
-    return wanted;
+bool EdgeStream::wanted_of(int generator) const {
+    bool some = false;
+    for_each_axis(state_.moved_by(generator) & listeners_.heard, [&](int i) { some = some || wanted(i); });
+    return some;
 }
 
-void Chip::set_edge_listener(int axis, sim::EdgeListener* listener) {
-    advance_to(tick_of(kernel_.now()));
-    if (outputs_[axis].edge_listener) flush_edges(axis);
-    outputs_[axis].edge_listener = listener;
-    requests_.forget_specials();
-    requests_.make_stale();
-    listeners_.heard = listener || listeners_.of_axis[axis].size() > 0 ? listeners_.heard | 1u << axis
-                                                                       : listeners_.heard & ~(1u << axis);
-    outputs_[axis].batch.size = 0;
+void EdgeStream::set_listener(int a, sim::EdgeListener* listener) {
+    if (wanted(a)) flush(a);
+    outputs_[a].listener = listener;
+    outputs_[a].batch.size = 0;
 }
 
-void Chip::deliver_edges(int axis) {
-    if (!outputs_[axis].edge_listener) return;
-    advance_to(tick_of(kernel_.now()));
-    flush_edges(axis);
-}
-
-void Chip::flush_edges(int axis) {
-    sim::EdgeBatch& batch = outputs_[axis].batch;
+void EdgeStream::flush(int a) {
+    sim::EdgeBatch& batch = outputs_[a].batch;
     if (batch.size == 0) return;
-    outputs_[axis].edge_listener->edges(batch);
+    outputs_[a].listener->edges(batch);
     batch.size = 0;
 }
 
 /// Emits one edge of axis `a`, after which its count is `count`.
-void Chip::add_edge(int a, std::int64_t at, int direction, std::int64_t count) {
+void EdgeStream::add(int a, std::int64_t at, int direction, std::int64_t count) {
     sim::EdgeBatch& batch = outputs_[a].batch;
     const std::int64_t offset = at - outputs_[a].batch_tick;
     if (batch.size > 0 &&
         (batch.step != direction || batch.size == sim::EdgeBatch::capacity || offset > max_batch_ticks))
-        flush_edges(a);
+        flush(a);
     if (batch.size > 0) {
         batch.at[batch.size++] = static_cast<std::uint32_t>(offset);
         return;
@@ -145,8 +148,8 @@ void Chip::add_edge(int a, std::int64_t at, int direction, std::int64_t count) {
     batch.at[batch.size++] = 0;
 }
 
-void Chip::begin_batch(int a, std::int64_t at, int direction, std::int64_t count) {
-    Output& output = outputs_[a];
+void EdgeStream::begin_batch(int a, std::int64_t at, int direction, std::int64_t count) {
+    BatchedEdges& output = outputs_[a];
     output.batch_tick = at;
     output.batch.origin = Instant{at * rules::tick_100ps};
     output.batch.tick = Duration{rules::tick_100ps};
@@ -156,12 +159,12 @@ void Chip::begin_batch(int a, std::int64_t at, int direction, std::int64_t count
 
 /// Emits `pulses` evenly spaced edges of axis `a`, at intervals of quotient ticks, or one more if the remainder has
 /// used up the slack. The first edge is at `run.at`.
-void Chip::make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direction) {
+void EdgeStream::make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direction) {
     sim::EdgeBatch& batch = outputs_[a].batch;
     std::int64_t count = state_.axis[a].count;
     while (pulses > 0) {
-        if (batch.size > 0 && (batch.step != direction || batch.size == sim::EdgeBatch::capacity)) flush_edges(a);
-        if (batch.size > 0 && run.at - outputs_[a].batch_tick > max_batch_ticks) flush_edges(a);
+        if (batch.size > 0 && (batch.step != direction || batch.size == sim::EdgeBatch::capacity)) flush(a);
+        if (batch.size > 0 && run.at - outputs_[a].batch_tick > max_batch_ticks) flush(a);
         if (batch.size == 0) begin_batch(a, run.at, direction, count + direction);
         std::int64_t some = std::min<std::int64_t>(sim::EdgeBatch::capacity - batch.size, pulses);
         // Limited by the 32-bit offsets of the batch.
@@ -179,22 +182,9 @@ void Chip::make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direc
     }
 }
 
-/// The generator's next basic pulses at constant speed and range: pulse j occurs when acc has grown by j * R.
-Chip::EvenPulses Chip::even_pulses(const Generator& gen, std::int64_t waited) const {
-    const std::int64_t need = gen.range_now - gen.acc;
-    EvenPulses run;
-    run.speed = gen.speed;
-    run.quotient = gen.range_now / gen.speed;
-    run.remainder = gen.range_now % gen.speed;
-    const std::int64_t ticks = rules::ceil_div(need, gen.speed);
-    run.at = gen.at + waited + ticks;
-    run.slack = ticks * gen.speed - need;
-    return run;
-}
-
 /// Emits the next `pulses` basic pulses of generator `a`, which starts after `waited` more ticks; called before its
 /// state advances.
-void Chip::make_edges(int a, std::int64_t waited, std::int64_t pulses) {
+void EdgeStream::make(int a, std::int64_t waited, std::int64_t pulses) {
     const Generator& gen = state_.axis[a].gen;
     if (gen.drive != Drive::path) return make_even_edges(a, even_pulses(gen, waited), pulses, state_.axis[a].direction);
     const Path& path = state_.path;
@@ -204,7 +194,7 @@ void Chip::make_edges(int a, std::int64_t waited, std::int64_t pulses) {
     for (int i = 0; i < path.command.count; ++i) {
         const std::int64_t p = rules::magnitude(path.command.finish[i]);
         const int axis = path.command.axis[i], direction = path.command.finish[i] < 0 ? -1 : 1;
-        if (p == 0 || !outputs_[axis].edge_listener) continue;
+        if (p == 0 || !wanted(axis)) continue;
         if (p == path.max_pulses)
             make_even_edges(axis, even_pulses(gen, waited), pulses, direction);
         else
@@ -214,7 +204,7 @@ void Chip::make_edges(int a, std::int64_t waited, std::int64_t pulses) {
 
 /// An axis interpolated along a line steps at intervals of a number of basic pulses, or one more: two intervals, each
 /// with quotient and remainder.
-void Chip::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
+void EdgeStream::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;
     const std::int64_t p = rules::magnitude(path.command.finish[i]), max_p = path.max_pulses;
@@ -236,7 +226,7 @@ void Chip::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
     }
     for (std::int64_t j = 0; j < steps; ++j) {
         count += direction;
-        add_edge(axis, at, direction, count);
+        add(axis, at, direction, count);
         spare -= rest;
         const int more = spare < 0 ? 1 : 0;
         spare += more * 2 * p;
@@ -248,21 +238,21 @@ void Chip::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
 }
 
 /// Within an octant: the short axis steps evenly, the long one at changes of its nearest value.
-void Chip::make_arc_edges(EvenPulses run, std::int64_t pulses) {
+void EdgeStream::make_arc_edges(EvenPulses run, std::int64_t pulses) {
     const Path& path = state_.path;
     const rules::Octant& octant = rules::octants[path.arc.octant];
     const int s = octant.short_axis, l = 1 - s;
     const auto direction = [&](int i) { return i == 1 && path.arc.clockwise ? -1 : 1; };
     const int short_axis = path.command.axis[s], long_axis = path.command.axis[l];
-    if (outputs_[short_axis].edge_listener) make_even_edges(short_axis, run, pulses, octant.short_step * direction(s));
-    if (!outputs_[long_axis].edge_listener) return;
-    LongAxis walk(path.arc);
+    if (wanted(short_axis)) make_even_edges(short_axis, run, pulses, octant.short_step * direction(s));
+    if (!wanted(long_axis)) return;
+    LongAxis along(path.arc);
     std::int64_t count = state_.axis[long_axis].count;
-    const int step = walk.way() * octant.long_side * direction(l);
+    const int step = along.way() * octant.long_side * direction(l);
     for (std::int64_t j = 0; j < pulses; ++j) {
-        if (walk.step()) {
+        if (along.step()) {
             count += step;
-            add_edge(long_axis, run.at, step, count);
+            add(long_axis, run.at, step, count);
         }
         run.slack -= run.remainder;
         const std::int64_t late = run.slack < 0 ? 1 : 0;
@@ -272,7 +262,7 @@ void Chip::make_arc_edges(EvenPulses run, std::int64_t pulses) {
 }
 
 /// With constant vector speed the interval of each basic pulse depends on the number of axes in the previous step.
-void Chip::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
+void EdgeStream::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;
     if (path.command.arc()) return make_varied_arc_edges(waited, pulses);
@@ -298,7 +288,7 @@ void Chip::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
             const int step = path.command.finish[i] < 0 ? -1 : 1;
             ++stepped;
             count[i] += step;
-            if (outputs_[path.command.axis[i]].edge_listener) add_edge(path.command.axis[i], run.at, step, count[i]);
+            if (wanted(path.command.axis[i])) add(path.command.axis[i], run.at, step, count[i]);
         }
         run.slack -= remainder[stepped - 1];
         const std::int64_t late = run.slack < 0 ? 1 : 0;
@@ -309,16 +299,16 @@ void Chip::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
 
 /// The same along an arc, within an octant: the short axis steps with every basic pulse, the long one with some of
 /// them.
-void Chip::make_varied_arc_edges(std::int64_t waited, std::int64_t pulses) {
+void EdgeStream::make_varied_arc_edges(std::int64_t waited, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;
     const rules::Octant& octant = rules::octants[path.arc.octant];
     const int s = octant.short_axis, l = 1 - s;
     const auto direction = [&](int i) { return i == 1 && path.arc.clockwise ? -1 : 1; };
     const int short_axis = path.command.axis[s], long_axis = path.command.axis[l];
-    const bool short_wanted = outputs_[short_axis].edge_listener, long_wanted = outputs_[long_axis].edge_listener;
-    LongAxis walk(path.arc);
-    const int short_step = octant.short_step * direction(s), long_step = walk.way() * octant.long_side * direction(l);
+    const bool short_wanted = wanted(short_axis), long_wanted = wanted(long_axis);
+    LongAxis along(path.arc);
+    const int short_step = octant.short_step * direction(s), long_step = along.way() * octant.long_side * direction(l);
     std::int64_t short_count = state_.axis[short_axis].count, long_count = state_.axis[long_axis].count;
     std::array<std::int64_t, 2> quotient{}, remainder{};
     for (int both = 0; both < 2; ++both) {
@@ -328,11 +318,11 @@ void Chip::make_varied_arc_edges(std::int64_t waited, std::int64_t pulses) {
     EvenPulses run = even_pulses(gen, waited);
     for (std::int64_t j = 0; j < pulses; ++j) {
         short_count += short_step;
-        if (short_wanted) add_edge(short_axis, run.at, short_step, short_count);
-        const bool both = walk.step();
+        if (short_wanted) add(short_axis, run.at, short_step, short_count);
+        const bool both = along.step();
         if (both) {
             long_count += long_step;
-            if (long_wanted) add_edge(long_axis, run.at, long_step, long_count);
+            if (long_wanted) add(long_axis, run.at, long_step, long_count);
         }
         run.slack -= remainder[both];
         const std::int64_t late = run.slack < 0 ? 1 : 0;
