@@ -56,16 +56,15 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
     : kernel_(kernel),
       id_(kernel.add(*this, sim::Phase::cards, name)),
       options_(options),
-      extended_(options.variant == Variant::mcx314as),
-      wires_(kernel, id_, name),
-      limit_begins_(options.software_limit == SoftwareLimit::at ? 1 : 0) {
+      extended_(options.extended()),
+      wires_(kernel, id_, name) {
     for (int a = 0; a < axes_of_chip; ++a) {
         outputs_[a].chip = encoder_listeners_[a].chip = this;
         outputs_[a].axis = encoder_listeners_[a].axis = a;
     }
     for (int a = 0; a < axes_of_chip; ++a) {
         state_.axis[a].offset = options_.offset_after_reset;
-        compare(a);
+        comparators_.compare(a);
     }
     state_.next_event = state_.next_sample = far;
     kernel_.schedule(id_, Instant{0});
@@ -129,7 +128,7 @@ void Chip::begin() {
     state_.begun = true;
     for (int a = 0; a < axes_of_chip; ++a) {
         set_wants(a);
-        watch_encoder(a);
+        encoders_.watch(a);
     }
     kernel_.subscribe(wires_.emergency, id_, true);
     state_.emergency_high = kernel_.level(wires_.emergency) != 0;
@@ -180,6 +179,39 @@ void Chip::on_wire(int pin, int wire_level, Instant now) {
         set_level(state_.axis[pin / 16].levels, pin % 16, wire_level != 0);
         hear_external(pin);
     }
+    requests_.look_anew();
+    settle(now);
+}
+
+// ---- encoders
+
+void Chip::connect_encoder(int a, sim::PositionFunction& counts) {
+    encoders_.connect(a, counts, encoder_listeners_[a]);
+}
+
+void Chip::encoder_crossed(int a, Instant now) {
+    catch_up_before(now);
+    comparators_.compare(a);
+    encoders_.watch(a);
+    requests_.look_anew();
+    settle(now);
+}
+
+void Chip::take_encoder(int a, bool taken) {
+    if (!encoders_.has_encoder(a)) return;
+    const Instant now = kernel_.now();
+    catch_up(now);
+    if (taken)
+        encoders_.take(a, now);
+    else
+        encoders_.give_back(a);
+    settle(now);
+}
+
+/// Wires without a connected encoder: every change is counted individually.
+void Chip::encoder_lines(int a, Instant now) {
+    if (!encoders_.count_lines(a)) return;
+    comparators_.compare(a);
     requests_.look_anew();
     settle(now);
 }
@@ -260,7 +292,7 @@ std::int32_t Chip::lp(int axis) const {
     return stepped(own, own.lp, law_.count_at(axis, kernel_.now()) - own.count);
 }
 std::int32_t Chip::ep(int axis) const {
-    return encoder_position(state_.axis[axis], axis);
+    return encoders_.position(state_.axis[axis], axis);
 }
 
 }  // namespace motionrack::mcx314

@@ -12,8 +12,11 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/cards/mcx314/chip/action_conditions.hpp>
 #include <motionrack/cards/mcx314/chip/chip_wires.hpp>
+#include <motionrack/cards/mcx314/chip/comparators.hpp>
 #include <motionrack/cards/mcx314/chip/edge_stream.hpp>
+#include <motionrack/cards/mcx314/chip/encoder_inputs.hpp>
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
 #include <motionrack/cards/mcx314/chip/motion_law.hpp>
 #include <motionrack/cards/mcx314/chip/options.hpp>
@@ -109,8 +112,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
         void rate_changed(double, double, Instant) override {}
         Chip* chip = nullptr;
         int axis = 0;
-        int slot = -1;
-        sim::PositionFunction* motion = nullptr;
     };
 
     // chip.cpp: time, wires, listeners
@@ -140,20 +141,12 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     // encoder.cpp: EP
     void encoder_crossed(int axis, Instant now);
     void encoder_lines(int axis, Instant now);
-    bool encoder_connected(int a) const {
-        return encoder_listeners_[a].motion && !kernel_.forced(wires_.encoders[a][0]);
-    }
-    void watch_encoder(int axis);
-    std::int32_t encoder_position(const Axis& axis, int a) const;
-    void set_encoder_position(int a, std::int32_t value);
 
     // tick.cpp: one tick by the rules
     void work_off(std::int64_t tick);
     void work(int a);
     bool inputs(int a);
     std::uint16_t active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const;
-    std::int32_t compared_counter(int a) const;
-    bool beyond_software_limit(int a) const;
     bool stop(int a, bool decelerating, bool immediate);
     bool pulse(int a);
     int step_axes(int a);
@@ -161,7 +154,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     bool segment_end(int a);
     void check_final(int a);
     void end(int a);
-    void compare(int a);
     void begin_segment(const PathCommand& command);
     void mark_pulse(int a, unsigned stepped, const PulseMoment& at);
 
@@ -270,9 +262,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void end_home(int a);
     void look_at_homes();
     // synchronous.cpp
-    void note(int a, Field condition);
-    void note_comparisons(int a, unsigned risen);
-    void hear_comparisons(int a);
     void act_together();
     void act_alone(int a);
 
@@ -283,10 +272,12 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     ChipWires wires_;
     State state_{};
     EventRequests requests_{state_};
+    EncoderInputs encoders_{state_, kernel_, wires_};
+    ActionConditions conditions_{state_};
+    Comparators comparators_{state_, encoders_, conditions_, options_};
     MotionLaw law_{state_};
     PulseListeners listeners_;
     EdgeStream edges_{state_, listeners_};
-    std::int64_t limit_begins_ = 0;  // 1: software limits begin at COMP+, not beyond
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderListener, axes_of_chip> encoder_listeners_;
     unsigned moved_last_ = 0;               // axes that stepped in the present basic pulse

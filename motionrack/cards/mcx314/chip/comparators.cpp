@@ -3,6 +3,31 @@
 
 namespace motionrack::mcx314 {
 
+/// The counter that is compared with COMP+ and COMP-.
+std::int32_t Comparators::compared_counter(int a) const {
+    const Axis& axis = state_.axis[a];
+    return wr2::CMPSL.test(axis.wr2) ? encoders_.position(axis, a) : axis.lp;
+}
+
+bool Comparators::beyond_software_limit(int a) const {
+    const Axis& axis = state_.axis[a];
+    const bool plus = axis.direction > 0;
+    if (!(plus ? wr2::SLMTP : wr2::SLMTM).test(axis.wr2)) return false;
+    const std::int64_t counter = compared_counter(a);
+    return plus ? counter > axis.comp_plus - limit_begins_ : counter < axis.comp_minus;
+}
+
+void Comparators::compare(int a) {
+    Axis& axis = state_.axis[a];
+    const std::int32_t counter = compared_counter(a);
+    unsigned now = counter >= axis.comp_minus ? rr3::PGECM.mask : rr3::PLCM.mask;
+    now |= counter >= axis.comp_plus ? rr3::PGECP.mask : rr3::PLCP.mask;
+    const unsigned risen = now & ~axis.compared;
+    axis.compared = static_cast<std::uint16_t>(now);
+    request_interrupt(axis, risen);
+    if (extended_) conditions_.note_comparisons(a, risen);
+}
+
 bool compares(const Axis& axis) {
     return axis.comparisons != 0 || wr2::SLMTP.test(axis.wr2) || wr2::SLMTM.test(axis.wr2) ||
            (axis.outputs_wanted && wr3::OUTSL.test(axis.wr3));

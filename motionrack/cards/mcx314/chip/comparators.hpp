@@ -1,6 +1,10 @@
 // Comparisons of LP or EP with COMP+ and COMP-.
 #pragma once
 
+#include <cstdint>
+#include <motionrack/cards/mcx314/chip/action_conditions.hpp>
+#include <motionrack/cards/mcx314/chip/encoder_inputs.hpp>
+#include <motionrack/cards/mcx314/chip/options.hpp>
 #include <motionrack/cards/mcx314/chip/state.hpp>
 
 namespace motionrack::mcx314 {
@@ -9,5 +13,28 @@ namespace motionrack::mcx314 {
 bool compares(const Axis& axis);
 /// Steps in `direction` until a comparison may change (>= 1); counters wrap at 32 bits.
 std::int64_t steps_to_comparison(const Axis& axis, std::int32_t counter, int direction);
+
+class Comparators {
+  public:
+    Comparators(State& state, const EncoderInputs& encoders, ActionConditions& conditions, const ChipOptions& options)
+        : state_(state),
+          encoders_(encoders),
+          conditions_(conditions),
+          extended_(options.extended()),
+          limit_begins_(options.software_limit == SoftwareLimit::at ? 1 : 0) {}
+
+    /// Evaluates the comparisons of an axis: those that have become true are interrupts and conditions of actions.
+    void compare(int a);
+    /// The counter that is compared with COMP+ and COMP-.
+    std::int32_t compared_counter(int a) const;
+    bool beyond_software_limit(int a) const;
+
+  private:
+    State& state_;
+    const EncoderInputs& encoders_;
+    ActionConditions& conditions_;
+    const bool extended_;
+    const std::int64_t limit_begins_;  // 1: software limits begin at COMP+, not beyond
+};
 
 }  // namespace motionrack::mcx314

@@ -46,16 +46,16 @@ void Chip::extended_write(int code, int a) {
             ask_clear(a);
             break;
         case cmd::SM:
-            compare(a);  // unsubscribed comparisons are not evaluated
+            comparators_.compare(a);  // unsubscribed comparisons are not evaluated
             ext.sm6 = state_.wr6;
             ext.sm7 = state_.wr7;
-            hear_comparisons(a);
+            conditions_.hear_comparisons(a);
             set_wants(a);
-            watch_encoder(a);
+            encoders_.watch(a);
             ext.sampled = state_.axis[a].levels;
             break;
         default:
-            note(a, sm::CMD);
+            conditions_.note(a, sm::CMD);
             break;
     }
 }
@@ -64,24 +64,24 @@ void Chip::extended_write(int code, int a) {
 void Chip::set_extension(int a) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];
-    const std::int32_t position = encoder_position(axis, a);
+    const std::int32_t position = encoders_.position(axis, a);
     ext.em6 = state_.wr6;
     ext.em7 = state_.wr7;
     axis.ring = em::VRING.test(ext.em6);
     axis.lp = stepped(axis, axis.lp, 0);
-    set_encoder_position(a, position);
-    compare(a);
+    encoders_.set_position(a, position);
+    comparators_.compare(a);
     set_filters(a);
-    watch_encoder(a);
+    encoders_.watch(a);
 }
 
 /// COMP+ of an axis in ring mode.
 void Chip::set_ring_end(int a, std::int32_t value) {
     Axis& axis = state_.axis[a];
-    const std::int32_t position = encoder_position(axis, a);
+    const std::int32_t position = encoders_.position(axis, a);
     axis.comp_plus = value;
     axis.lp = stepped(axis, axis.lp, 0);
-    set_encoder_position(a, position);
+    encoders_.set_position(a, position);
 }
 
 // ---- drives

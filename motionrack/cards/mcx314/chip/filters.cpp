@@ -158,13 +158,13 @@ void Chip::sample_edges(int a) {
     Axis& axis = state_.axis[a];
     const unsigned changed = (axis.levels ^ std::exchange(ext.sampled, axis.levels)) & edge_pins;
     if (changed == 0) return;
-    if ((changed & mask(Pin::in3)) != 0) note(a, level(axis, Pin::in3) ? sm::IN3UP : sm::IN3DN);
+    if ((changed & mask(Pin::in3)) != 0) conditions_.note(a, level(axis, Pin::in3) ? sm::IN3UP : sm::IN3DN);
     if ((changed & mask(Pin::in2)) == 0 || !em::EPCLR.test(ext.em6)) return;
     if (!input_active(axis, 2)) return;
-    set_encoder_position(a, 0);
+    encoders_.set_position(a, 0);
     if (!wr2::CMPSL.test(axis.wr2)) return;
-    compare(a);
-    watch_encoder(a);
+    comparators_.compare(a);
+    encoders_.watch(a);
     work_in_full(state_.tick);
 }
 

@@ -79,9 +79,9 @@ bool Chip::next_home_step(int a, int step) {
     if (!step_enabled(ext, 3)) ask_clear(a);
     if (em::PCLR.test(ext.em7)) {
         state_.axis[a].lp = 0;
-        set_encoder_position(a, 0);
-        compare(a);
-        watch_encoder(a);
+        encoders_.set_position(a, 0);
+        comparators_.compare(a);
+        encoders_.watch(a);
     }
     return false;
 }

@@ -124,7 +124,7 @@ void Chip::skip_pulses(int a, std::int64_t pulses, const PulseMoment& last) {
         axis.lp = stepped(axis, axis.lp, steps);
         axis.count += steps;
         axis.made += rules::magnitude(steps);
-        if (axis.steps_compared()) compare(i);
+        if (axis.steps_compared()) comparators_.compare(i);
         request_interrupt(axis, rr3::PULSE.mask);
     };
     unsigned stepped = 1u << a;

@@ -27,6 +27,8 @@ struct ChipOptions {
     SlowDrive slow_drive = SlowDrive::at_v;
     SoftwareLimit software_limit = SoftwareLimit::beyond;
     std::uint16_t offset_after_reset = 8;  ///< AO, pulses
+
+    bool extended() const { return variant == Variant::mcx314as; }
 };
 
 }  // namespace motionrack::mcx314

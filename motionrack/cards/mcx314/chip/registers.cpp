@@ -39,11 +39,11 @@ void Chip::reset() {
     hear_step_wire(kernel_.level(wires_.step));
     // An input may be connected to an output of the chip, which then reads the chip: its state is consistent here.
     for (int a = 0; a < axes_of_chip; ++a) {
-        set_encoder_position(a, 0);
+        encoders_.set_position(a, 0);
         set_wants(a);
-        watch_encoder(a);
+        encoders_.watch(a);
     }
-    for (int a = 0; a < axes_of_chip; ++a) compare(a);
+    for (int a = 0; a < axes_of_chip; ++a) comparators_.compare(a);
     update_outputs();
 }
 
@@ -99,17 +99,17 @@ void Chip::write_mode(std::uint32_t offset, int a, const MaskedWrite& put) {
     }
     if (offset == reg::WR1) {
         // The counter has moved without comparisons while they were disabled: only later changes count.
-        compare(a);
+        comparators_.compare(a);
         put(axis.wr1);
-        hear_comparisons(a);
+        conditions_.hear_comparisons(a);
     } else {
-        const std::int32_t ep_now = encoder_position(axis, a);
+        const std::int32_t ep_now = encoders_.position(axis, a);
         put(axis.wr2);
-        set_encoder_position(a, ep_now);  // the edge ratio may have changed
-        compare(a);
+        encoders_.set_position(a, ep_now);  // the edge ratio may have changed
+        comparators_.compare(a);
     }
     set_wants(a);
-    watch_encoder(a);
+    encoders_.watch(a);
 }
 
 void Chip::command(std::uint16_t value) {
@@ -131,7 +131,7 @@ void Chip::command(std::uint16_t value) {
     } else if (code == cmd::NOP) {
     } else if (from_to(cmd::READ_LP, cmd::READ_CA)) {
         if (axes != 0) data_read(code, state_.first_selected());
-        if (extended_ && axes != 0 && code == cmd::READ_LP) note(state_.first_selected(), sm::LPRD);
+        if (extended_ && axes != 0 && code == cmd::READ_LP) conditions_.note(state_.first_selected(), sm::LPRD);
     } else if (from_to(cmd::FIXED_PLUS, cmd::CONTINUOUS_MINUS)) {
         drive_command(code, axes);
     } else if (from_to(cmd::LINE2, cmd::BP3)) {
@@ -195,7 +195,7 @@ void Chip::data_write(int code, int a) {
             axis.lp = stepped(axis, static_cast<std::int32_t>(value), 0);
             break;
         case cmd::EP:
-            set_encoder_position(a, static_cast<std::int32_t>(value));
+            encoders_.set_position(a, static_cast<std::int32_t>(value));
             break;
         case cmd::COMP_PLUS:
             if (axis.ring)
@@ -211,8 +211,8 @@ void Chip::data_write(int code, int a) {
             break;
     }
     if (code == cmd::LP || code == cmd::EP || code == cmd::COMP_PLUS || code == cmd::COMP_MINUS) {
-        compare(a);
-        watch_encoder(a);
+        comparators_.compare(a);
+        encoders_.watch(a);
     }
 }
 
@@ -224,7 +224,7 @@ void Chip::data_read(int code, int a) {
             value = static_cast<std::uint32_t>(axis.lp);
             break;
         case cmd::READ_EP:
-            value = static_cast<std::uint32_t>(encoder_position(axis, a));
+            value = static_cast<std::uint32_t>(encoders_.position(axis, a));
             break;
         case cmd::READ_CV:
             value = axis.gen.drive == Drive::idle ? 0 : static_cast<std::uint32_t>(axis.gen.speed);
@@ -257,7 +257,7 @@ void Chip::start_drive(int a, int code) {
     state_.axis[a].finished = state_.axis[a].causes = 0;
     check_final(a);
     requests_.law_changed(a);
-    if (extended_) note(a, sm::DSTA);
+    if (extended_) conditions_.note(a, sm::DSTA);
 }
 
 void Chip::begin_generator(int a, Drive drive) {
@@ -318,7 +318,7 @@ void Chip::path_command(int code) {
         state_.queue = command;
         for (int a = 0; a < axes_of_chip; ++a)
             if ((command.mask() & ~state_.chain) >> a & 1u) state_.axis[a].finished = state_.axis[a].causes = 0;
-        if (extended_) for_each_axis(command.mask() & ~state_.chain, [this](int a) { note(a, sm::DSTA); });
+        if (extended_) for_each_axis(command.mask() & ~state_.chain, [this](int a) { conditions_.note(a, sm::DSTA); });
         state_.chain |= command.mask();
     } else if (Axis& first = state_.axis[command.axis[0]]; first.hold) {
         first.held_command = code;
@@ -339,7 +339,7 @@ void Chip::start_path(const PathCommand& command) {
     begin_segment(command);
     check_final(state_.master);
     requests_.law_changed_of(state_.master);
-    if (extended_) for_each_axis(state_.chain, [this](int a) { note(a, sm::DSTA); });
+    if (extended_) for_each_axis(state_.chain, [this](int a) { conditions_.note(a, sm::DSTA); });
 }
 
 void Chip::free_held(unsigned axes) {

@@ -73,7 +73,7 @@ std::uint16_t Chip::main_status() const {
 std::uint16_t Chip::status1(int a) const {
     const Axis& axis = state_.axis[a];
     const Generator& gen = axis.gen;
-    const std::int32_t counter = compared_counter(a);
+    const std::int32_t counter = comparators_.compared_counter(a);
     unsigned v = axis.finished;
     if (counter >= axis.comp_plus) v |= rr1::CMPP.mask;
     if (counter < axis.comp_minus) v |= rr1::CMPM.mask;
@@ -87,7 +87,7 @@ std::uint16_t Chip::status1(int a) const {
 std::uint16_t Chip::status2(int a) const {
     const Axis& axis = state_.axis[a];
     unsigned v = 0;
-    if (beyond_software_limit(a)) v |= axis.direction > 0 ? rr2::SLMTP.mask : rr2::SLMTM.mask;
+    if (comparators_.beyond_software_limit(a)) v |= axis.direction > 0 ? rr2::SLMTP.mask : rr2::SLMTM.mask;
     if (limit_active(axis, +1)) v |= rr2::HLMTP.mask;
     if (limit_active(axis, -1)) v |= rr2::HLMTM.mask;
     if (alarm_active(axis)) v |= rr2::ALARM.mask;

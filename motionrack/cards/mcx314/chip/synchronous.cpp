@@ -6,13 +6,6 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-/// A comparison as a condition (SM6) and as an interrupt (RR3).
-struct Comparison {
-    Field condition, interrupt;
-};
-constexpr std::array<Comparison, 4> comparisons = {
-    {{sm::PGECP, rr3::PGECP}, {sm::PLCP, rr3::PLCP}, {sm::PLCM, rr3::PLCM}, {sm::PGECM, rr3::PGECM}}};
-
 /// Actions (SM7) that are commands.
 struct Act {
     Field action;
@@ -39,29 +32,6 @@ unsigned acting_with(int a, const Extension& ext) {
 
 }  // namespace
 
-/// Handles a condition: its axes act at the end of the tick or write.
-void Chip::note(int a, Field condition) {
-    Extension& ext = state_.extension[a];
-    if (!condition.test(ext.sm6)) return;
-    state_.acting |= 1u << a;
-}
-
-/// Handles comparisons that have become true, as bits of RR3.
-void Chip::note_comparisons(int a, unsigned risen) {
-    for (const Comparison& each : comparisons)
-        if (each.interrupt.test(risen)) note(a, each.condition);
-}
-
-/// Comparisons with subscribers.
-void Chip::hear_comparisons(int a) {
-    Axis& axis = state_.axis[a];
-    const unsigned conditions = state_.extension[a].sm6;
-    unsigned enabled = axis.wr1 >> enable_shift & rr3::comparisons.mask;
-    for (const Comparison& each : comparisons)
-        if (each.condition.test(conditions)) enabled |= each.interrupt.mask;
-    axis.comparisons = static_cast<std::uint16_t>(enabled);
-}
-
 /// At the end of a tick or a write: executes the actions of the conditions so far. The consequences of these actions
 /// follow later.
 void Chip::act_together() {
@@ -81,7 +51,7 @@ void Chip::act_alone(int a) {
     Axis& axis = state_.axis[a];
     auto asked = [&ext](Field action) { return action.test(ext.sm7); };
     if (asked(sm::LPSAV)) ext.buffer = static_cast<std::uint32_t>(axis.lp);
-    if (asked(sm::EPSAV)) ext.buffer = static_cast<std::uint32_t>(encoder_position(axis, a));
+    if (asked(sm::EPSAV)) ext.buffer = static_cast<std::uint32_t>(encoders_.position(axis, a));
     for (const Act& each : sets)
         if (asked(each.action)) data_write(each.code, a);
     if (asked(sm::OPSET) && axis.gen.drive == Drive::fixed) check_final(a);

@@ -86,20 +86,6 @@ std::uint16_t Chip::active_inputs(const Axis& axis, bool& decelerating, bool& im
     return static_cast<std::uint16_t>(causes);
 }
 
-/// The counter that is compared with COMP+ and COMP-.
-std::int32_t Chip::compared_counter(int a) const {
-    const Axis& axis = state_.axis[a];
-    return wr2::CMPSL.test(axis.wr2) ? encoder_position(axis, a) : axis.lp;
-}
-
-bool Chip::beyond_software_limit(int a) const {
-    const Axis& axis = state_.axis[a];
-    const bool plus = axis.direction > 0;
-    if (!(plus ? wr2::SLMTP : wr2::SLMTM).test(axis.wr2)) return false;
-    const std::int64_t counter = compared_counter(a);
-    return plus ? counter > axis.comp_plus - limit_begins_ : counter < axis.comp_minus;
-}
-
 /// Returns true if the drive ended.
 bool Chip::inputs(int a) {
     Generator& gen = state_.axis[a].gen;
@@ -110,7 +96,7 @@ bool Chip::inputs(int a) {
         if (!(moved >> i & 1)) continue;
         const unsigned causes = state_.axis[i].causes | active_inputs(state_.axis[i], decelerating, immediate);
         state_.axis[i].causes = static_cast<std::uint16_t>(causes);
-        if (beyond_software_limit(i)) decelerating = true;
+        if (comparators_.beyond_software_limit(i)) decelerating = true;
         if (bit(state_.homing, i) && home_found(i)) decelerating = true;
     }
     return stop(a, decelerating, immediate);
@@ -138,7 +124,7 @@ void Chip::end(int a) {
         axis.finished = static_cast<std::uint16_t>(axis.finished | axis.causes);
         axis.causes = 0;
         request_interrupt(axis, rr3::DEND.mask);
-        if (extended_) note(i, sm::DEND);
+        if (extended_) conditions_.note(i, sm::DEND);
         state_.in_place |= 1u << i;
         requests_.law_changed(i);
     }
@@ -171,7 +157,8 @@ bool Chip::pulse(int a) {
     for_each_axis(moved_last_, [this](int i) { state_.axis[i].mark.direction = went_[i]; });
     bool beyond = false;
     const std::uint32_t moved = state_.moved_by(a);
-    for (int i = 0; i < axes_of_chip; ++i) beyond = beyond || ((moved >> i & 1) && beyond_software_limit(i));
+    for (int i = 0; i < axes_of_chip; ++i)
+        beyond = beyond || ((moved >> i & 1) && comparators_.beyond_software_limit(i));
     if (stop(a, beyond, false)) return true;
     if (gen.drive == Drive::fixed && gen.n >= state_.axis[a].pulses) return end(a), true;
     if (gen.drive == Drive::path && law_.path_finished()) return segment_end(a);
@@ -220,7 +207,7 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
     request_interrupt(axis, rr3::PULSE.mask);
     moved_last_ |= 1u << a;
     went_[a] = direction;
-    if (axis.steps_compared()) compare(a);
+    if (axis.steps_compared()) comparators_.compare(a);
     if (edges_.wanted(a)) edges_.add(a, tick_now, direction, axis.count);
     for (int i = 0; i < listeners_.of_axis[a].size(); ++i)
         if (axis.watch[i].left(axis.count)) state_.crossed |= 1u << a;
@@ -298,17 +285,6 @@ void Chip::check_final(int a) {
     if (!now) return;
     gen.final = true;
     gen.special_known = false;
-}
-
-void Chip::compare(int a) {
-    Axis& axis = state_.axis[a];
-    const std::int32_t counter = compared_counter(a);
-    unsigned now = counter >= axis.comp_minus ? rr3::PGECM.mask : rr3::PLCM.mask;
-    now |= counter >= axis.comp_plus ? rr3::PGECP.mask : rr3::PLCP.mask;
-    const unsigned risen = now & ~axis.compared;
-    axis.compared = static_cast<std::uint16_t>(now);
-    request_interrupt(axis, risen);
-    if (extended_) note_comparisons(a, risen);
 }
 
 }  // namespace motionrack::mcx314
