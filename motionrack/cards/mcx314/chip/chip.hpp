@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <motionrack/cards/mcx314/chip/action_conditions.hpp>
+#include <motionrack/cards/mcx314/chip/chip_conditions.hpp>
 #include <motionrack/cards/mcx314/chip/chip_wires.hpp>
 #include <motionrack/cards/mcx314/chip/comparators.hpp>
 #include <motionrack/cards/mcx314/chip/edge_stream.hpp>
@@ -20,6 +21,7 @@
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
 #include <motionrack/cards/mcx314/chip/motion_law.hpp>
 #include <motionrack/cards/mcx314/chip/options.hpp>
+#include <motionrack/cards/mcx314/chip/pattern_stack.hpp>
 #include <motionrack/cards/mcx314/chip/pulse_listeners.hpp>
 #include <motionrack/cards/mcx314/chip/state.hpp>
 #include <motionrack/sim/kernel.hpp>
@@ -31,20 +33,6 @@
 #include <vector>
 
 namespace motionrack::mcx314 {
-
-/// Conditions that the chip reports.
-enum ChipCondition : std::uint16_t {
-    drive_ignored = 1,    ///< a: command, b: axis that is driving
-    path_ignored = 2,     ///< a: command; queue full, axis busy or named twice
-    unknown_command = 3,  ///< a: command, b: 1 if the MCX314As has it
-    pattern_full = 4,     ///< 38h with three words stacked
-    pattern_ran_out = 5,  ///< a: basic pulses made; the bit pattern ended without its end code
-    step_ignored = 6,     ///< 3Ah without a segment that waits for a step
-    output_held = 7       ///< a: 3 or 4, the number of WR, b: bits of outputs that a stop cleared, and that stay low
-};
-
-/// Message of a condition that a chip has reported.
-std::string describe(const sim::Condition& condition, const std::string& card);
 
 class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
   public:
@@ -157,14 +145,9 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void begin_segment(const PathCommand& command);
     void mark_pulse(int a, unsigned stepped, const PulseMoment& at);
 
-    // pattern.cpp: bit patterns
-    void pattern_command(int code);
-    void stack_pattern();
-    void clear_pattern();
     void next_pattern_word();
     int step_pattern();
     void look_ahead_in_pattern();
-    int pattern_counter() const;
 
     // machines.cpp: the present states of the map's state machines
     int drive_state(int a) const;
@@ -278,6 +261,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     MotionLaw law_{state_};
     PulseListeners listeners_;
     EdgeStream edges_{state_, listeners_};
+    PatternStack patterns_{state_.pattern, kernel_, id_};
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderListener, axes_of_chip> encoder_listeners_;
     unsigned moved_last_ = 0;               // axes that stepped in the present basic pulse

@@ -34,7 +34,7 @@ void Chip::reset() {
     state_.next_sample = far;
     state_.emergency_high = kernel_.level(wires_.emergency) != 0;
     state_.queued = state_.decel_enabled = state_.path_interrupt = state_.stepping = false;
-    state_.pattern = {};
+    patterns_.reset();
     state_.wr0_high = state_.step_low = 0;
     hear_step_wire(kernel_.level(wires_.step));
     // An input may be connected to an output of the chip, which then reads the chip: its state is consistent here.
@@ -137,7 +137,8 @@ void Chip::command(std::uint16_t value) {
     } else if (from_to(cmd::LINE2, cmd::BP3)) {
         path_command(code);
     } else if (from_to(cmd::BP_ENABLE, cmd::BP_CLEAR)) {
-        pattern_command(code);
+        patterns_.execute(code);
+        if (code == cmd::BP_CLEAR && state_.chain != 0) requests_.law_changed_of(state_.master);
     } else if (code == cmd::STEP) {
         if (!ask_step(PathCommand::by_command)) kernel_.report(id_, step_ignored);
     } else if (code == cmd::HOLD) {

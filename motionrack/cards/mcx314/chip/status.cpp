@@ -67,7 +67,7 @@ std::uint16_t Chip::main_status() const {
         if (state_.path.command.arc())
             v = rr0::ZONE.set(v, static_cast<unsigned>(arc.clockwise ? 7 - arc.octant : arc.octant));
     }
-    return rr0::BPSC.set(v, static_cast<unsigned>(pattern_counter()));
+    return rr0::BPSC.set(v, static_cast<unsigned>(state_.pattern.stacked));
 }
 
 std::uint16_t Chip::status1(int a) const {

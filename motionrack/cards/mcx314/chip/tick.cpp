@@ -287,4 +287,41 @@ void Chip::check_final(int a) {
     gen.special_known = false;
 }
 
+// ---- bit patterns
+
+/// Executes a basic pulse of a bit pattern; returns the number of axes that stepped, at least one.
+int Chip::step_pattern() {
+    Pattern& pattern = state_.pattern;
+    const PathCommand& command = state_.path.command;
+    if (pattern.ends(command.count, pattern.place)) return patterns_.clear(), 1;
+    int moved = 0;
+    for (int i = 0; i < command.count; ++i)
+        if (const int step = pattern.step(i, pattern.place); step != 0)
+            move(command.axis[i], step, state_.tick), ++moved;
+    if (++pattern.place == Pattern::length) next_pattern_word();
+    look_ahead_in_pattern();
+    return std::max(1, moved);
+}
+
+/// Continues with the next word of the bit pattern.
+void Chip::next_pattern_word() {
+    patterns_.next_word(state_.axis[state_.master].gen.n, wr5::BPINT.test(state_.wr5));
+    requests_.law_changed_of(state_.master);
+}
+
+/// Sets the directions of the axes to those of their next steps.
+void Chip::look_ahead_in_pattern() {
+    const Pattern& pattern = state_.pattern;
+    const PathCommand& command = state_.path.command;
+    for (int i = 0; i < command.count; ++i) {
+        int direction = 0;
+        for (int at = pattern.place; at < Pattern::length && direction == 0 && !pattern.ends(command.count, at); ++at)
+            direction = pattern.step(i, at);
+        Axis& axis = state_.axis[command.axis[i]];
+        if (direction == 0 || direction == axis.direction) continue;
+        axis.direction = direction;
+        state_.axis[state_.master].gen.full_tick = true;  // the opposite limit applies
+    }
+}
+
 }  // namespace motionrack::mcx314
