@@ -29,7 +29,7 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
 
 void Chip::advance_to(std::int64_t to) {
     work_to(to);
-    for_each_axis(state_.working, [&](int a) { bring_up(a, state_.tick); });
+    for_each_axis(state_.working, [&](int a) { forward_.bring_up(a, state_.tick); });
 }
 
 /// Executes the events up to tick `to`; generators without an event at the last of these ticks may stay behind.
@@ -41,14 +41,21 @@ void Chip::work_to(std::int64_t to) {
     }
 }
 
+/// Advances to tick `to` without an event.
+void Chip::skip_to(std::int64_t to) {
+    for_each_axis(state_.working, [&](int a) { forward_.bring_up(a, to); });
+    if (state_.in_place != 0) look_at_in_position();
+    state_.tick = to;
+}
+
 /// Finds the tick of the next event.
 void Chip::reschedule() {
     std::int64_t next = state_.next_sample;
     for_each_axis(state_.working, [&](int a) {
         const Generator& gen = state_.axis[a].gen;
         if (gen.next_tick <= state_.tick || gen.full_tick || !gen.special_known) {
-            bring_up(a, state_.tick);
-            find_next_tick(a);
+            forward_.bring_up(a, state_.tick);
+            forward_.find_next_tick(a);
         }
         next = std::min(next, gen.next_tick);
     });

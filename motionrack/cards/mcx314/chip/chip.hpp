@@ -19,6 +19,7 @@
 #include <motionrack/cards/mcx314/chip/edge_stream.hpp>
 #include <motionrack/cards/mcx314/chip/encoder_inputs.hpp>
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
+#include <motionrack/cards/mcx314/chip/fast_forward.hpp>
 #include <motionrack/cards/mcx314/chip/motion_law.hpp>
 #include <motionrack/cards/mcx314/chip/options.hpp>
 #include <motionrack/cards/mcx314/chip/pattern_stack.hpp>
@@ -143,7 +144,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void check_final(int a);
     void end(int a);
     void begin_segment(const PathCommand& command);
-    void mark_pulse(int a, unsigned stepped, const PulseMoment& at);
 
     void next_pattern_word();
     int step_pattern();
@@ -175,21 +175,8 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     // speed.cpp: the speed step
     bool speed_step(int a);
 
-    // horizon.cpp: closed form between interesting ticks
-    void find_next_tick(int a);
-    std::int64_t pulses_to_special(int a) const;
-    std::int64_t steps_to_threshold(int a, int direction) const;
     void skip_to(std::int64_t tick);
-    void bring_up(int a, std::int64_t tick);
-    void skip_phase(int a, std::int64_t ticks);
-    void skip_pulses(int a, std::int64_t pulses, const PulseMoment& last);
     void look_at_in_position();
-
-    // ramp.cpp: many unobserved speed steps at once
-    bool some_unheard() const { return (listeners_.heard | state_.following) != (1u << axes_of_chip) - 1; }
-    bool may_walk(int a) const;
-    void walk_ahead(int a, std::int64_t phase_limit);
-    void bring_along(int a, std::int64_t to);
 
     // registers.cpp
     void reset();
@@ -234,7 +221,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     bool sample_filters(int a, std::int64_t tick);
     bool sample_chip_filter(ChipFilter& filter, Field enable, bool seen, std::int64_t tick);
     void sample_edges(int a);
-    void work_in_full(std::int64_t tick);
     // home_search.cpp
     void start_home(int a);
     bool home_input(int a, int step) const;
@@ -261,6 +247,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     MotionLaw law_{state_};
     PulseListeners listeners_;
     EdgeStream edges_{state_, listeners_};
+    FastForward forward_{state_, law_, listeners_, edges_, comparators_};
     PatternStack patterns_{state_.pattern, kernel_, id_};
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderListener, axes_of_chip> encoder_listeners_;

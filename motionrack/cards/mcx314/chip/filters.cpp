@@ -96,18 +96,7 @@ void Chip::sample(std::int64_t to) {
         if (const std::int64_t end = state_.extension[a].clear_until; end > to)
             state_.next_sample = std::min(state_.next_sample, end);
     }
-    if (changed) work_in_full(to);
-}
-
-/// Requests full execution of the present tick `to` by all generators.
-void Chip::work_in_full(std::int64_t to) {
-    for_each_axis(state_.working, [&](int a) {
-        Generator& gen = state_.axis[a].gen;
-        bring_up(a, to - 1);
-        gen.full_tick = true;
-        gen.plain = gen.walks = false;
-        gen.next_tick = to;
-    });
+    if (changed) forward_.work_in_full(to);
 }
 
 /// Filters EMGN or EXPLSN, whose level in the chip is `seen`; returns true if that level must change.
@@ -165,7 +154,7 @@ void Chip::sample_edges(int a) {
     if (!wr2::CMPSL.test(axis.wr2)) return;
     comparators_.compare(a);
     encoders_.watch(a);
-    work_in_full(state_.tick);
+    forward_.work_in_full(state_.tick);
 }
 
 }  // namespace motionrack::mcx314

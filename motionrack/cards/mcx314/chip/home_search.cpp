@@ -133,7 +133,7 @@ void Chip::look_at_homes() {
         if (state_.axis[a].gen.drive != Drive::idle) return;
         const bool clearing = ext.home.cleared && ext.clear_until > state_.tick;
         if ((bit(state_.in_place, a) || clearing) && !ext.home.cancelled) return;
-        for_each_axis(state_.working, [&](int i) { bring_up(i, state_.tick); });
+        for_each_axis(state_.working, [&](int i) { forward_.bring_up(i, state_.tick); });
         end_home_drive(a);
         requests_.make_stale();
     });

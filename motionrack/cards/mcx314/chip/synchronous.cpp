@@ -37,7 +37,7 @@ unsigned acting_with(int a, const Extension& ext) {
 void Chip::act_together() {
     unsigned acting = 0;
     for_each_axis(std::exchange(state_.acting, 0u), [&](int a) { acting |= acting_with(a, state_.extension[a]); });
-    for_each_axis(state_.working, [&](int a) { bring_up(a, state_.tick); });
+    for_each_axis(state_.working, [&](int a) { forward_.bring_up(a, state_.tick); });
     for_each_axis(acting, [&](int a) { act_alone(a); });
     requests_.look_anew();
     requests_.forget_specials();

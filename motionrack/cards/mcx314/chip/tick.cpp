@@ -13,17 +13,17 @@ void Chip::work_off(std::int64_t to) {
         Axis& axis = state_.axis[a];
         const bool path = axis.gen.drive == Drive::path;
         if (axis.gen.next_tick > to) {
-            if (path) bring_up(a, to);
+            if (path) forward_.bring_up(a, to);
         } else if (axis.gen.walks) {
-            bring_along(a, to);
+            forward_.bring_along(a, to);
         } else if (axis.gen.plain) {
             skip_speed(axis, to - axis.gen.at - 1);
-            skip_phase(a, to - axis.gen.at);
+            forward_.skip_phase(a, to - axis.gen.at);
             axis.gen.at = to;
             if (path) note_rates();
             speed_step(a);
         } else {
-            bring_up(a, to - 1);
+            forward_.bring_up(a, to - 1);
             if (path) note_rates();
             axis.gen.at = to;
             work(a);
@@ -153,7 +153,7 @@ bool Chip::pulse(int a) {
     if (gen.ramp > 0) ++gen.accel_pulses;
     if (gen.ramp < 0 && !gen.final && gen.accel_pulses > 0) --gen.accel_pulses;
     if (gen.n >= gen.next_special) gen.special_known = false;
-    mark_pulse(a, moved_last_, {state_.tick, gen.acc, gen.speed});
+    forward_.mark_pulse(a, moved_last_, {state_.tick, gen.acc, gen.speed});
     for_each_axis(moved_last_, [this](int i) { state_.axis[i].mark.direction = went_[i]; });
     bool beyond = false;
     const std::uint32_t moved = state_.moved_by(a);
@@ -211,17 +211,6 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
     if (edges_.wanted(a)) edges_.add(a, tick_now, direction, axis.count);
     for (int i = 0; i < listeners_.of_axis[a].size(); ++i)
         if (axis.watch[i].left(axis.count)) state_.crossed |= 1u << a;
-}
-
-/// Updates the wires of the generator's axes after a basic pulse: `stepped` have a new pulse, the last pulse of the
-/// others has ended.
-void Chip::mark_pulse(int a, unsigned stepped, const PulseMoment& at) {
-    const Generator& gen = state_.axis[a].gen;
-    for_each_axis(state_.moved_by(a), [&](int i) {
-        Axis& axis = state_.axis[i];
-        axis.mark = {at.when(), stepped >> i & 1 ? static_cast<std::int32_t>(at.speed) : 0,
-                     static_cast<std::int32_t>(gen.range_now), axis.direction, 0};
-    });
 }
 
 /// Ends the running segment: the queued one takes over, or the drive ends (returns true).

@@ -2,8 +2,7 @@
 //
 //   tick    |--------- plain ticks, pulses in closed form ---------|  event tick, executed by the rules
 //           now                                        speed step, special pulse, input ..
-#include <motionrack/cards/mcx314/chip/chip.hpp>
-#include <motionrack/cards/mcx314/chip/comparators.hpp>
+#include <motionrack/cards/mcx314/chip/fast_forward.hpp>
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 
 namespace motionrack::mcx314 {
@@ -11,7 +10,7 @@ namespace motionrack::mcx314 {
 // ---- the tick of the next event
 
 /// The next tick at which generator `a` does more than accumulate, and whether that is only a step of its speed.
-void Chip::find_next_tick(int a) {
+void FastForward::find_next_tick(int a) {
     Generator& gen = state_.axis[a].gen;
     gen.plain = gen.walks = false;
     if (gen.wait > 0 || gen.full_tick) {
@@ -42,7 +41,7 @@ void Chip::find_next_tick(int a) {
 }
 
 /// Basic pulses until one does more than step its axes (>= 1), far if never.
-std::int64_t Chip::pulses_to_special(int a) const {
+std::int64_t FastForward::pulses_to_special(int a) const {
     const Axis& own = state_.axis[a];
     const Generator& gen = own.gen;
     if (state_.halted(a)) return far;
@@ -66,7 +65,7 @@ std::int64_t Chip::pulses_to_special(int a) const {
 }
 
 /// Steps of an axis in `direction` until a limit, a comparison or a watched count is passed (>= 1), far if never.
-std::int64_t Chip::steps_to_threshold(int a, int direction) const {
+std::int64_t FastForward::steps_to_threshold(int a, int direction) const {
     const Axis& axis = state_.axis[a];
     if (axis.pulses_wanted || (wr1::PULSE.test(axis.wr1) && !rr3::PULSE.test(axis.flags))) return 1;
     std::int64_t steps = far;
@@ -82,15 +81,8 @@ std::int64_t Chip::steps_to_threshold(int a, int direction) const {
 
 // ---- many plain ticks at once
 
-/// Advances to tick `to` without an event.
-void Chip::skip_to(std::int64_t to) {
-    for_each_axis(state_.working, [&](int a) { bring_up(a, to); });
-    if (state_.in_place != 0) look_at_in_position();
-    state_.tick = to;
-}
-
 /// Advances generator `a`, which has no event up to tick `to`, to that tick.
-void Chip::bring_up(int a, std::int64_t to) {
+void FastForward::bring_up(int a, std::int64_t to) {
     Axis& axis = state_.axis[a];
     const std::int64_t ticks = to - axis.gen.at;
     if (ticks <= 0) return;
@@ -101,7 +93,7 @@ void Chip::bring_up(int a, std::int64_t to) {
 }
 
 /// Executes `ticks` of the second step, of which only the last may have a pulse that does more than step its axes.
-void Chip::skip_phase(int a, std::int64_t ticks) {
+void FastForward::skip_phase(int a, std::int64_t ticks) {
     Generator& gen = state_.axis[a].gen;
     const std::int64_t waited = std::min<std::int64_t>(gen.wait, ticks);
     gen.wait -= static_cast<std::int32_t>(waited);
@@ -116,7 +108,7 @@ void Chip::skip_phase(int a, std::int64_t ticks) {
 }
 
 /// Executes the next `pulses` basic pulses; `last`: moment of the last one.
-void Chip::skip_pulses(int a, std::int64_t pulses, const PulseMoment& last) {
+void FastForward::skip_pulses(int a, std::int64_t pulses, const PulseMoment& last) {
     Generator& gen = state_.axis[a].gen;
     auto add = [this](int i, std::int64_t steps) {
         if (steps == 0) return;
@@ -148,6 +140,78 @@ void Chip::skip_pulses(int a, std::int64_t pulses, const PulseMoment& last) {
     if (gen.ramp > 0) gen.accel_pulses += pulses;
     if (gen.ramp < 0 && !gen.final) gen.accel_pulses = std::max<std::int64_t>(0, gen.accel_pulses - pulses);
     mark_pulse(a, stepped, last);
+}
+
+/// Updates the wires of the generator's axes after a basic pulse: `stepped` have a new pulse, the last pulse of the
+/// others has ended.
+void FastForward::mark_pulse(int a, unsigned stepped, const PulseMoment& at) {
+    const Generator& gen = state_.axis[a].gen;
+    for_each_axis(state_.moved_by(a), [&](int i) {
+        Axis& axis = state_.axis[i];
+        axis.mark = {at.when(), stepped >> i & 1 ? static_cast<std::int32_t>(at.speed) : 0,
+                     static_cast<std::int32_t>(gen.range_now), axis.direction, 0};
+    });
+}
+
+/// Requests full execution of the present tick `to` by all generators.
+void FastForward::work_in_full(std::int64_t to) {
+    for_each_axis(state_.working, [&](int a) {
+        Generator& gen = state_.axis[a].gen;
+        bring_up(a, to - 1);
+        gen.full_tick = true;
+        gen.plain = gen.walks = false;
+        gen.next_tick = to;
+    });
+}
+
+// ---- combined steps of the speed
+
+/// True if generator `a` is on a ramp whose steps are unobserved.
+bool FastForward::may_walk(int a) const {
+    const Axis& axis = state_.axis[a];
+    const Generator& gen = axis.gen;
+    if (gen.ramp == 0 || (state_.moved_by(a) & (listeners_.heard | state_.following)) != 0) return false;
+    if (gen.stopping && gen.speed <= rules::used_speed(axis.start_speed)) return false;
+    if (gen.s_curve) return !gen.final || gen.final_seen;
+    const std::int64_t to = target_speed(axis);
+    return (to - gen.speed) * gen.ramp > 0;
+}
+
+/// Combines the step at next_tick with the following steps, if there are any before `phase_limit`.
+void FastForward::walk_ahead(int a, std::int64_t phase_limit) {
+    Generator& gen = state_.axis[a].gen;
+    if (!may_walk(a)) return;
+    const Walk& ahead = state_.ahead[a] = law_.walk(a, far, phase_limit);
+    gen.walks = ahead.ticks > 0;
+    if (gen.walks) gen.next_tick = gen.at + ahead.ticks;
+}
+
+/// Advances generator `a` to tick `to` of its combined steps, at most to their end; or it waits.
+void FastForward::bring_along(int a, std::int64_t to) {
+    Generator& gen = state_.axis[a].gen;
+    const std::int64_t ticks = to - gen.at;
+    if (state_.halted(a)) {
+        gen.at = to;
+        return;
+    }
+    const Walk done = to == gen.next_tick ? state_.ahead[a] : law_.walk(a, ticks, far);
+    const std::int64_t rest = ticks - done.ticks, rest_phase = rest * done.law.speed;
+    const std::int64_t pulses = law_.pulses_of(gen, done.phase + rest_phase);
+    std::int64_t acc = gen.acc + done.phase + rest_phase;
+    if (pulses > 0) {
+        acc -= law_.phase_for(gen, pulses);
+        PulseMoment moment{to, acc, done.law.speed};
+        if (rest == 0) moment.speed = done.last_speed;
+        if (acc >= (rest > 0 ? rest_phase : done.last_phase)) moment = law_.last_pulse(a, pulses, ticks);
+        skip_pulses(a, pulses, moment);
+    }
+    gen.acc = acc;
+    static_cast<Speed&>(gen) = done.law;
+    state_.ahead[a].ticks -= ticks;
+    state_.ahead[a].phase -= done.phase + rest_phase;
+    gen.final_seen = gen.final;
+    gen.at = to;
+    skip_speed(state_.axis[a], rest);
 }
 
 }  // namespace motionrack::mcx314
