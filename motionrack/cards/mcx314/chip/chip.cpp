@@ -41,6 +41,44 @@ void Chip::work_to(std::int64_t to) {
     }
 }
 
+/// Executes everything up to and including tick `to`, the next event: generators that only change their speed in closed
+/// form, the others by the rules. Generators without an event, and without a path that depends on them, stay behind.
+void Chip::work_off(std::int64_t to) {
+    state_.tick = to;
+    if (state_.next_sample <= to) sample(to);
+    for_each_axis(state_.working, [&](int a) {
+        Axis& axis = state_.axis[a];
+        const bool path = axis.gen.drive == Drive::path;
+        if (axis.gen.next_tick > to) {
+            if (path) forward_.bring_up(a, to);
+        } else if (axis.gen.walks) {
+            forward_.bring_along(a, to);
+        } else if (axis.gen.plain) {
+            skip_speed(axis, to - axis.gen.at - 1);
+            forward_.skip_phase(a, to - axis.gen.at);
+            axis.gen.at = to;
+            if (path) note_rates();
+            generators_.speed_step(a);
+        } else {
+            forward_.bring_up(a, to - 1);
+            if (path) note_rates();
+            axis.gen.at = to;
+            generators_.work(a);
+        }
+    });
+    if ((state_.in_place | state_.sampled | state_.homing | state_.acting) == 0) return;
+    look_at_in_position();
+    sample_external();
+    look_at_homes();
+    if (state_.acting != 0) act_together();
+}
+
+void Chip::look_at_in_position() {
+    for_each_axis(state_.in_place, [&](int a) {
+        if (in_position(state_.axis[a])) state_.in_place &= ~(1u << a);
+    });
+}
+
 /// Advances to tick `to` without an event.
 void Chip::skip_to(std::int64_t to) {
     for_each_axis(state_.working, [&](int a) { forward_.bring_up(a, to); });

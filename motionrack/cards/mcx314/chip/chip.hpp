@@ -20,6 +20,7 @@
 #include <motionrack/cards/mcx314/chip/encoder_inputs.hpp>
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
 #include <motionrack/cards/mcx314/chip/fast_forward.hpp>
+#include <motionrack/cards/mcx314/chip/generators.hpp>
 #include <motionrack/cards/mcx314/chip/motion_law.hpp>
 #include <motionrack/cards/mcx314/chip/options.hpp>
 #include <motionrack/cards/mcx314/chip/pattern_stack.hpp>
@@ -131,23 +132,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void encoder_crossed(int axis, Instant now);
     void encoder_lines(int axis, Instant now);
 
-    // tick.cpp: one tick by the rules
     void work_off(std::int64_t tick);
-    void work(int a);
-    bool inputs(int a);
-    std::uint16_t active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const;
-    bool stop(int a, bool decelerating, bool immediate);
-    bool pulse(int a);
-    int step_axes(int a);
-    void move(int a, int direction, std::int64_t tick);
-    bool segment_end(int a);
-    void check_final(int a);
-    void end(int a);
-    void begin_segment(const PathCommand& command);
-
-    void next_pattern_word();
-    int step_pattern();
-    void look_ahead_in_pattern();
 
     // machines.cpp: the present states of the map's state machines
     int drive_state(int a) const;
@@ -169,11 +154,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void sample_external_drive(int a);
     bool turns_by_wire(int a) const;
     void sample_wheel(int a);
-    bool ask_step(std::uint32_t by);
-    void end_step(int a);
-
-    // speed.cpp: the speed step
-    bool speed_step(int a);
 
     void skip_to(std::int64_t tick);
     void look_at_in_position();
@@ -208,11 +188,8 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void set_ring_end(int a, std::int32_t value);
     void prepare_drive(int a);
     void choose_deceleration(int a);
-    void set_drive_speed(int a, std::uint16_t v);
-    void set_drive_speed(int a) { set_drive_speed(a, state_.extension[a].v); }
     static bool has_extended_command(int code);
     void ask_clear(int a);
-    void avoid_triangle(int a);
     // filters.cpp: inputs, once per tick
     unsigned inputs_of_extension(int a) const;
     bool passes_filter(int pin, int wire_level);
@@ -223,8 +200,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void sample_edges(int a);
     // home_search.cpp
     void start_home(int a);
-    bool home_input(int a, int step) const;
-    bool home_found(int a);
     void go_home(int a, int hmst);
     bool next_home_step(int a, int step);
     void end_home_drive(int a);
@@ -249,10 +224,10 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     EdgeStream edges_{state_, listeners_};
     FastForward forward_{state_, law_, listeners_, edges_, comparators_};
     PatternStack patterns_{state_.pattern, kernel_, id_};
+    Generators generators_{
+        state_, options_, {requests_, listeners_, law_, edges_, conditions_, comparators_, patterns_, forward_}};
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderListener, axes_of_chip> encoder_listeners_;
-    unsigned moved_last_ = 0;               // axes that stepped in the present basic pulse
-    std::array<int, axes_of_chip> went_{};  // direction of each of these steps
 };
 
 }  // namespace motionrack::mcx314

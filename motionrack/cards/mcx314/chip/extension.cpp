@@ -37,7 +37,7 @@ void Chip::extended_write(int code, int a) {
             break;
         case cmd::HV:
             ext.hv = state_.wr6;
-            set_drive_speed(a);
+            generators_.set_drive_speed(a);
             break;
         case cmd::HOME:
             start_home(a);
@@ -89,20 +89,7 @@ void Chip::set_ring_end(int a, std::int32_t value) {
 /// A drive begins without a speed cap.
 void Chip::prepare_drive(int a) {
     state_.extension[a].cap = 0;
-    set_drive_speed(a);
-}
-
-/// Sets V to `v`. The drive goes to HV in a slow drive of a home search, at most to the cap, and, by option, at least
-/// to SV.
-void Chip::set_drive_speed(int a, std::uint16_t v) {
-    Extension& ext = state_.extension[a];
-    ext.v = v;
-    if (ext.home.hmst != 0 && map::home_drive(ext.home.hmst).slow)
-        v = ext.hv;
-    else if (ext.cap != 0)
-        v = std::min(v, ext.cap);
-    if (options_.slow_drive == SlowDrive::at_sv) v = std::max(v, state_.axis[a].start_speed);
-    state_.axis[a].speed = v;
+    generators_.set_drive_speed(a);
 }
 
 /// Determines the deceleration method of the new drive.
@@ -111,17 +98,6 @@ void Chip::choose_deceleration(int a) {
     const bool automatic = !gen.manual && !gen.s_curve;
     gen.weighted = automatic && gen.own_deceleration && gen.drive != Drive::continuous;
     gen.no_triangle = automatic && gen.drive == Drive::fixed && em::AVTRI.test(state_.extension[a].em6);
-}
-
-/// Called after a pulse of a drive with triangle prevention: once half of its pulses are used, its speed is capped.
-void Chip::avoid_triangle(int a) {
-    Generator& gen = state_.axis[a].gen;
-    if (gen.final || gen.ramp <= 0) return;
-    if (2 * (gen.accel_pulses + final_pulses(state_.axis[a])) < std::int64_t{state_.axis[a].pulses}) return;
-    gen.no_triangle = false;
-    gen.special_known = false;
-    state_.extension[a].cap = static_cast<std::uint16_t>(gen.speed);
-    set_drive_speed(a);
 }
 
 // ---- deviation counter clear

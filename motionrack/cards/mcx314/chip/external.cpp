@@ -65,7 +65,7 @@ void Chip::sample_external() {
         if (turns_by_wire(a)) sample_wheel(a);
     });
     if (!(sampled & step_wire)) return;
-    if (falls(state_.step_low, state_.step_high)) ask_step(PathCommand::by_wire);
+    if (falls(state_.step_low, state_.step_high)) generators_.ask_step(PathCommand::by_wire);
     if (state_.step_low == 1) state_.sampled |= step_wire;
 }
 
@@ -94,24 +94,6 @@ void Chip::sample_wheel(int a) {
     axis.external_low[0] = high ? 0 : 2;
     if (high == was_high || level(axis, Pin::exp_minus) || state_.driving(a) || axis.hold) return;
     start_drive(a, drive_code(Drive::fixed, high ? 1 : -1));
-}
-
-// ---- single steps
-
-/// True if a step is in progress.
-bool Chip::ask_step(std::uint32_t by) {
-    if (state_.chain == 0 || state_.stepping || !(state_.path.command.steps & by)) return false;
-    state_.stepping = true;
-    state_.axis[state_.master].gen.special_known = false;
-    requests_.law_changed_of(state_.master);
-    return true;
-}
-
-void Chip::end_step(int a) {
-    state_.stepping = false;
-    state_.axis[a].gen.special_known = false;
-    requests_.law_changed_of(a);
-    if (state_.axis[a].gen.stopping) end(a);
 }
 
 }  // namespace motionrack::mcx314

@@ -4,6 +4,7 @@
 //           (3)       (8)     (12) ─► (15)     (20)      (25)             in brackets: HMST
 //                      └─ IN1 or the limit ─┘
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/home_search.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -20,6 +21,25 @@ int step_direction(const Extension& ext, int step) {
 
 }  // namespace
 
+bool home_input(const State& state, int a, int step) {
+    const Extension& ext = state.extension[a];
+    const Axis& axis = state.axis[a];
+    if (step == 3) return input_active(axis, 2) && (!em::SAND.test(ext.em7) || input_active(axis, 1));
+    if (em::LIMIT.test(ext.em7)) return limit_active(axis, step_direction(ext, step));
+    return input_active(axis, step - 1);
+}
+
+bool home_found(State& state, int a) {
+    HomingSequence& home = state.extension[a].home;
+    const map::HomeDrive& drive = map::home_drive(home.hmst);
+    if (drive.step == 4) return false;
+    const bool active = home_input(state, a, drive.step);
+    if (!drive.back) home.found = home.found || active;
+    if (drive.back && active) home.seen = true;
+    if (drive.back && !active && home.seen) home.found = true;
+    return drive.back ? !active && home.seen : active;
+}
+
 /// 62h.
 void Chip::start_home(int a) {
     if (state_.driving(a)) return kernel_.report(id_, drive_ignored, static_cast<std::int64_t>(cmd::HOME), a);
@@ -27,27 +47,6 @@ void Chip::start_home(int a) {
     state_.homing |= 1u << a;
     set_wants(a);
     if (!next_home_step(a, 1)) end_home(a);
-}
-
-/// True if the event that the step waits for has occurred.
-bool Chip::home_input(int a, int step) const {
-    const Extension& ext = state_.extension[a];
-    const Axis& axis = state_.axis[a];
-    if (step == 3) return input_active(axis, 2) && (!em::SAND.test(ext.em7) || input_active(axis, 1));
-    if (em::LIMIT.test(ext.em7)) return limit_active(axis, step_direction(ext, step));
-    return input_active(axis, step - 1);
-}
-
-/// In step 1 of a tick: true if the drive of a home search must stop, as by a stop input.
-bool Chip::home_found(int a) {
-    HomingSequence& home = state_.extension[a].home;
-    const map::HomeDrive& drive = map::home_drive(home.hmst);
-    if (drive.step == 4) return false;
-    const bool active = home_input(a, drive.step);
-    if (!drive.back) home.found = home.found || active;
-    if (drive.back && active) home.seen = true;
-    if (drive.back && !active && home.seen) home.found = true;
-    return drive.back ? !active && home.seen : active;
 }
 
 /// Starts the drive of a state.
@@ -64,14 +63,14 @@ void Chip::go_home(int a, int hmst) {
 bool Chip::next_home_step(int a, int step) {
     Extension& ext = state_.extension[a];
     HomingSequence& home = ext.home;
-    if (step <= 1 && step_enabled(ext, 1) && !home_input(a, 1)) return go_home(a, 3), true;
+    if (step <= 1 && step_enabled(ext, 1) && !home_input(state_, a, 1)) return go_home(a, 3), true;
     if (step <= 2 && step_enabled(ext, 2)) {
-        home.seen = home_input(a, 2);
+        home.seen = home_input(state_, a, 2);
         const bool at_limit = limit_active(state_.axis[a], step_direction(ext, 2));
         return go_home(a, home.seen || at_limit ? 12 : 8), true;
     }
     if (step <= 3 && step_enabled(ext, 3)) {
-        if (!home_input(a, 3)) return go_home(a, 20), true;
+        if (!home_input(state_, a, 3)) return go_home(a, 20), true;
         home.error = true;
         return false;
     }
@@ -90,7 +89,7 @@ void Chip::end_home(int a) {
     Extension& ext = state_.extension[a];
     state_.homing &= ~(1u << a);
     ext.home.hmst = 0;
-    set_drive_speed(a);
+    generators_.set_drive_speed(a);
     set_wants(a);
     if (em::HMINT.test(ext.em6)) state_.axis[a].flags |= rr3::HMEND.mask;
 }
@@ -106,7 +105,7 @@ void Chip::end_home_drive(int a) {
     const unsigned own_limit = step_direction(ext, drive.step) > 0 ? rr1::LMTP.mask : rr1::LMTM.mask;
     const bool limit_is_home = em::LIMIT.test(ext.em7);
     if (home.hmst == 8 && !limit_is_home && errors == own_limit) {
-        home.seen = home_input(a, 2);
+        home.seen = home_input(state_, a, 2);
         return go_home(a, 12);
     }
     const bool tolerated = drive.step <= 2 && !drive.back && limit_is_home;

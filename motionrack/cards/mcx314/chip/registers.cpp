@@ -126,7 +126,7 @@ void Chip::command(std::uint16_t value) {
         each([&](int a) { data_write(code, a); });
         if (code == cmd::P || code == cmd::DP || code == cmd::AO)
             each([&](int a) {
-                if (state_.axis[a].gen.drive == Drive::fixed) check_final(a);
+                if (state_.axis[a].gen.drive == Drive::fixed) generators_.check_final(a);
             });
     } else if (code == cmd::NOP) {
     } else if (from_to(cmd::READ_LP, cmd::READ_CA)) {
@@ -140,7 +140,7 @@ void Chip::command(std::uint16_t value) {
         patterns_.execute(code);
         if (code == cmd::BP_CLEAR && state_.chain != 0) requests_.law_changed_of(state_.master);
     } else if (code == cmd::STEP) {
-        if (!ask_step(PathCommand::by_command)) kernel_.report(id_, step_ignored);
+        if (!generators_.ask_step(PathCommand::by_command)) kernel_.report(id_, step_ignored);
     } else if (code == cmd::HOLD) {
         each([&](int a) { state_.axis[a].hold = true; });
     } else if (code == cmd::START) {
@@ -149,7 +149,7 @@ void Chip::command(std::uint16_t value) {
         ask_stop(axes, code == cmd::QUICK_STOP);
     } else if (code == cmd::DECELERATION_ON) {
         state_.decel_enabled = true;
-        if (state_.chain != 0) check_final(state_.master);
+        if (state_.chain != 0) generators_.check_final(state_.master);
     } else if (code == cmd::DECELERATION_OFF) {
         state_.decel_enabled = false;
     } else if (code == cmd::INTERPOLATION_INTERRUPT_CLEAR) {
@@ -178,10 +178,10 @@ void Chip::data_write(int code, int a) {
             break;
         case cmd::SV:
             axis.start_speed = state_.wr6;
-            set_drive_speed(a);
+            generators_.set_drive_speed(a);
             break;
         case cmd::V:
-            set_drive_speed(a, state_.wr6);
+            generators_.set_drive_speed(a, state_.wr6);
             break;
         case cmd::P:
             axis.pulses = extended_ ? value : value & 0x0FFF'FFFFu;
@@ -256,7 +256,7 @@ void Chip::start_drive(int a, int code) {
     state_.axis[a].direction = code == cmd::FIXED_MINUS || code == cmd::CONTINUOUS_MINUS ? -1 : 1;
     begin_generator(a, code == cmd::FIXED_PLUS || code == cmd::FIXED_MINUS ? Drive::fixed : Drive::continuous);
     state_.axis[a].finished = state_.axis[a].causes = 0;
-    check_final(a);
+    generators_.check_final(a);
     requests_.law_changed(a);
     if (extended_) conditions_.note(a, sm::DSTA);
 }
@@ -337,8 +337,8 @@ void Chip::start_path(const PathCommand& command) {
     for (int a = 0; a < axes_of_chip; ++a)
         if (state_.chain >> a & 1u) state_.axis[a].finished = state_.axis[a].causes = 0;
     begin_generator(state_.master, Drive::path);
-    begin_segment(command);
-    check_final(state_.master);
+    generators_.begin_segment(command);
+    generators_.check_final(state_.master);
     requests_.law_changed_of(state_.master);
     if (extended_) for_each_axis(state_.chain, [this](int a) { conditions_.note(a, sm::DSTA); });
 }

@@ -1,5 +1,4 @@
 // The third step of a tick: the speed approaches its target on a straight or an S-shaped ramp (RULES.md).
-#include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 
 namespace motionrack::mcx314 {
@@ -112,20 +111,6 @@ void skip_speed(Axis& axis, std::int64_t ticks) {
     if (gen.s_curve) return rules::s_skip(gen, ticks);
     if (ticks > 0) gen.rate = ramp_rate(axis, gen);
     gen.speed_part += ticks * gen.rate;
-}
-
-/// Returns true if the drive ended.
-bool Chip::speed_step(int a) {
-    Axis& axis = state_.axis[a];
-    Generator& gen = axis.gen;
-    auto at_start_speed = [&] { return gen.speed <= rules::used_speed(axis.start_speed); };
-    if (gen.stopping && at_start_speed()) return end(a), true;
-    const std::int64_t before = gen.speed;
-    advance_speed(axis);
-    gen.final_seen = gen.final;
-    if (gen.speed != before) requests_.law_changed_of(a);
-    if (gen.stopping && at_start_speed()) return end(a), true;
-    return false;
 }
 
 }  // namespace motionrack::mcx314

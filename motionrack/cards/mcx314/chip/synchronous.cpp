@@ -54,7 +54,7 @@ void Chip::act_alone(int a) {
     if (asked(sm::EPSAV)) ext.buffer = static_cast<std::uint32_t>(encoders_.position(axis, a));
     for (const Act& each : sets)
         if (asked(each.action)) data_write(each.code, a);
-    if (asked(sm::OPSET) && axis.gen.drive == Drive::fixed) check_final(a);
+    if (asked(sm::OPSET) && axis.gen.drive == Drive::fixed) generators_.check_final(a);
     if (asked(sm::SSTOP)) ask_stop(1u << a, false);
     if (asked(sm::ISTOP)) ask_stop(1u << a, true);
     for (const Act& each : drives)

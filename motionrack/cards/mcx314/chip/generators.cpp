@@ -1,48 +1,11 @@
 // One tick by the rules: inputs, pulse, and the consequences of a pulse (RULES.md, "One generator an axis").
-#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/generators.hpp>
+#include <motionrack/cards/mcx314/chip/home_search.hpp>
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 
 namespace motionrack::mcx314 {
 
-/// Executes everything up to and including tick `to`, the next event: generators that only change their speed in closed
-/// form, the others by the rules. Generators without an event, and without a path that depends on them, stay behind.
-void Chip::work_off(std::int64_t to) {
-    state_.tick = to;
-    if (state_.next_sample <= to) sample(to);
-    for_each_axis(state_.working, [&](int a) {
-        Axis& axis = state_.axis[a];
-        const bool path = axis.gen.drive == Drive::path;
-        if (axis.gen.next_tick > to) {
-            if (path) forward_.bring_up(a, to);
-        } else if (axis.gen.walks) {
-            forward_.bring_along(a, to);
-        } else if (axis.gen.plain) {
-            skip_speed(axis, to - axis.gen.at - 1);
-            forward_.skip_phase(a, to - axis.gen.at);
-            axis.gen.at = to;
-            if (path) note_rates();
-            speed_step(a);
-        } else {
-            forward_.bring_up(a, to - 1);
-            if (path) note_rates();
-            axis.gen.at = to;
-            work(a);
-        }
-    });
-    if ((state_.in_place | state_.sampled | state_.homing | state_.acting) == 0) return;
-    look_at_in_position();
-    sample_external();
-    look_at_homes();
-    if (state_.acting != 0) act_together();
-}
-
-void Chip::look_at_in_position() {
-    for_each_axis(state_.in_place, [&](int a) {
-        if (in_position(state_.axis[a])) state_.in_place &= ~(1u << a);
-    });
-}
-
-void Chip::work(int a) {
+void Generators::work(int a) {
     Generator& gen = state_.axis[a].gen;
     if (gen.wait > 0) {
         --gen.wait;
@@ -66,7 +29,7 @@ void Chip::work(int a) {
 // ---- step 1
 
 /// Stop causes of one axis as bits of RR1, and the stop that they request.
-std::uint16_t Chip::active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const {
+std::uint16_t Generators::active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const {
     unsigned causes = 0;
     for (int i = 0; i < 4; ++i)
         if (stop_input_enabled(axis, i) && input_active(axis, i)) causes |= unsigned{rr1::IN0.mask} << i;
@@ -87,7 +50,7 @@ std::uint16_t Chip::active_inputs(const Axis& axis, bool& decelerating, bool& im
 }
 
 /// Returns true if the drive ended.
-bool Chip::inputs(int a) {
+bool Generators::inputs(int a) {
     Generator& gen = state_.axis[a].gen;
     bool decelerating = gen.ask_decelerating, immediate = gen.ask_immediate;
     gen.ask_decelerating = gen.ask_immediate = false;
@@ -97,13 +60,13 @@ bool Chip::inputs(int a) {
         const unsigned causes = state_.axis[i].causes | active_inputs(state_.axis[i], decelerating, immediate);
         state_.axis[i].causes = static_cast<std::uint16_t>(causes);
         if (comparators_.beyond_software_limit(i)) decelerating = true;
-        if (bit(state_.homing, i) && home_found(i)) decelerating = true;
+        if (bit(state_.homing, i) && home_found(state_, i)) decelerating = true;
     }
     return stop(a, decelerating, immediate);
 }
 
 /// Accepts a stop; returns true if it ended the drive.
-bool Chip::stop(int a, bool decelerating, bool immediate) {
+bool Generators::stop(int a, bool decelerating, bool immediate) {
     Generator& gen = state_.axis[a].gen;
     if (!decelerating && !immediate) return false;
     if (immediate || state_.halted(a) || gen.speed <= rules::used_speed(state_.axis[a].start_speed))
@@ -114,7 +77,7 @@ bool Chip::stop(int a, bool decelerating, bool immediate) {
     return false;
 }
 
-void Chip::end(int a) {
+void Generators::end(int a) {
     const bool path = state_.axis[a].gen.drive == Drive::path;
     const unsigned ended = path ? state_.chain : 1u << a;
     for (int i = 0; i < axes_of_chip; ++i) {
@@ -141,7 +104,7 @@ void Chip::end(int a) {
 // ---- step 2
 
 /// Executes a pulse of the generator; returns true if the drive ended with it.
-bool Chip::pulse(int a) {
+bool Generators::pulse(int a) {
     Generator& gen = state_.axis[a].gen;
     ++gen.n;
     moved_last_ = 0;
@@ -168,7 +131,7 @@ bool Chip::pulse(int a) {
 }
 
 /// Moves the axes of one pulse; returns the number of axes moved.
-int Chip::step_axes(int a) {
+int Generators::step_axes(int a) {
     Path& path = state_.path;
     if (state_.axis[a].gen.drive != Drive::path) return move(a, state_.axis[a].direction, state_.tick), 1;
     if (path.command.pattern()) return step_pattern();
@@ -199,7 +162,7 @@ int Chip::step_axes(int a) {
     return moved;
 }
 
-void Chip::move(int a, int direction, std::int64_t tick_now) {
+void Generators::move(int a, int direction, std::int64_t tick_now) {
     Axis& axis = state_.axis[a];
     axis.lp = stepped(axis, axis.lp, direction);
     axis.count += direction;
@@ -214,7 +177,7 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
 }
 
 /// Ends the running segment: the queued one takes over, or the drive ends (returns true).
-bool Chip::segment_end(int a) {
+bool Generators::segment_end(int a) {
     if (!state_.queued) return end(a), true;
     state_.queued = false;
     requests_.law_changed_of(a);
@@ -231,7 +194,7 @@ bool Chip::segment_end(int a) {
     return false;
 }
 
-void Chip::begin_segment(const PathCommand& command) {
+void Generators::begin_segment(const PathCommand& command) {
     Path& path = state_.path;
     path.command = command;
     path.max_pulses = 0;
@@ -258,7 +221,7 @@ void Chip::begin_segment(const PathCommand& command) {
 
 // ---- start of the final deceleration
 
-void Chip::check_final(int a) {
+void Generators::check_final(int a) {
     const Axis& axis = state_.axis[a];
     Generator& gen = state_.axis[a].gen;
     if (gen.final) return;
@@ -279,7 +242,7 @@ void Chip::check_final(int a) {
 // ---- bit patterns
 
 /// Executes a basic pulse of a bit pattern; returns the number of axes that stepped, at least one.
-int Chip::step_pattern() {
+int Generators::step_pattern() {
     Pattern& pattern = state_.pattern;
     const PathCommand& command = state_.path.command;
     if (pattern.ends(command.count, pattern.place)) return patterns_.clear(), 1;
@@ -293,13 +256,13 @@ int Chip::step_pattern() {
 }
 
 /// Continues with the next word of the bit pattern.
-void Chip::next_pattern_word() {
+void Generators::next_pattern_word() {
     patterns_.next_word(state_.axis[state_.master].gen.n, wr5::BPINT.test(state_.wr5));
     requests_.law_changed_of(state_.master);
 }
 
 /// Sets the directions of the axes to those of their next steps.
-void Chip::look_ahead_in_pattern() {
+void Generators::look_ahead_in_pattern() {
     const Pattern& pattern = state_.pattern;
     const PathCommand& command = state_.path.command;
     for (int i = 0; i < command.count; ++i) {
@@ -311,6 +274,64 @@ void Chip::look_ahead_in_pattern() {
         axis.direction = direction;
         state_.axis[state_.master].gen.full_tick = true;  // the opposite limit applies
     }
+}
+
+// ---- single steps
+
+/// True if a step is in progress.
+bool Generators::ask_step(std::uint32_t by) {
+    if (state_.chain == 0 || state_.stepping || !(state_.path.command.steps & by)) return false;
+    state_.stepping = true;
+    state_.axis[state_.master].gen.special_known = false;
+    requests_.law_changed_of(state_.master);
+    return true;
+}
+
+void Generators::end_step(int a) {
+    state_.stepping = false;
+    state_.axis[a].gen.special_known = false;
+    requests_.law_changed_of(a);
+    if (state_.axis[a].gen.stopping) end(a);
+}
+
+// ---- speed
+
+/// Returns true if the drive ended.
+bool Generators::speed_step(int a) {
+    Axis& axis = state_.axis[a];
+    Generator& gen = axis.gen;
+    auto at_start_speed = [&] { return gen.speed <= rules::used_speed(axis.start_speed); };
+    if (gen.stopping && at_start_speed()) return end(a), true;
+    const std::int64_t before = gen.speed;
+    advance_speed(axis);
+    gen.final_seen = gen.final;
+    if (gen.speed != before) requests_.law_changed_of(a);
+    if (gen.stopping && at_start_speed()) return end(a), true;
+    return false;
+}
+
+/// Sets V to `v`. The drive goes to HV in a slow drive of a home search, at most to the cap, and, by option, at least
+/// to SV.
+void Generators::set_drive_speed(int a, std::uint16_t v) {
+    Extension& ext = state_.extension[a];
+    ext.v = v;
+    if (ext.home.hmst != 0 && map::home_drive(ext.home.hmst).slow)
+        v = ext.hv;
+    else if (ext.cap != 0)
+        v = std::min(v, ext.cap);
+    if (options_.slow_drive == SlowDrive::at_sv) v = std::max(v, state_.axis[a].start_speed);
+    state_.axis[a].speed = v;
+}
+
+/// Called after a pulse of a drive with triangle prevention: once half of its pulses are used, its speed is capped.
+void Generators::avoid_triangle(int a) {
+    Generator& gen = state_.axis[a].gen;
+    if (gen.final || gen.ramp <= 0) return;
+    if (2 * (gen.accel_pulses + final_pulses(state_.axis[a])) < std::int64_t{state_.axis[a].pulses}) return;
+    gen.no_triangle = false;
+    gen.special_known = false;
+    state_.extension[a].cap = static_cast<std::uint16_t>(gen.speed);
+    set_drive_speed(a);
 }
 
 }  // namespace motionrack::mcx314
