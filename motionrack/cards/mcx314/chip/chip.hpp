@@ -16,6 +16,7 @@
 #include <motionrack/cards/mcx314/chip/chip_conditions.hpp>
 #include <motionrack/cards/mcx314/chip/chip_wires.hpp>
 #include <motionrack/cards/mcx314/chip/comparators.hpp>
+#include <motionrack/cards/mcx314/chip/drives.hpp>
 #include <motionrack/cards/mcx314/chip/edge_stream.hpp>
 #include <motionrack/cards/mcx314/chip/encoder_inputs.hpp>
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
@@ -166,28 +167,16 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void command(std::uint16_t value);
     void data_write(int code, int a);
     void data_read(int code, int a);
-    void drive_command(int code, unsigned axes);
-    void start_drive(int a, int code);
-    void begin_generator(int a, Drive drive);
-    PathCommand captured(int code) const;
-    bool any_busy(const PathCommand& command) const;
-    void path_command(int code);
-    void start_path(const PathCommand& command);
-    void free_held(unsigned axes);
-    void ask_stop(unsigned axes, bool immediate);
     std::uint16_t main_status() const;
     std::uint16_t status1(int a) const;
     std::uint16_t status2(int a) const;
     std::uint16_t input_levels(int a) const;
-    std::int64_t coordinate(std::uint32_t v) const;
 
     // Only the MCX314As: extension.cpp
     bool extended_command(int code, unsigned axes);
     void extended_write(int code, int a);
     void set_extension(int a);
     void set_ring_end(int a, std::int32_t value);
-    void prepare_drive(int a);
-    void choose_deceleration(int a);
     static bool has_extended_command(int code);
     void ask_clear(int a);
     // filters.cpp: inputs, once per tick
@@ -226,6 +215,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     PatternStack patterns_{state_.pattern, kernel_, id_};
     Generators generators_{
         state_, options_, {requests_, listeners_, law_, edges_, conditions_, comparators_, patterns_, forward_}};
+    Drives drives_{state_, options_, kernel_, id_, requests_, conditions_, generators_};
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderListener, axes_of_chip> encoder_listeners_;
 };

@@ -84,22 +84,6 @@ void Chip::set_ring_end(int a, std::int32_t value) {
     encoders_.set_position(a, position);
 }
 
-// ---- drives
-
-/// A drive begins without a speed cap.
-void Chip::prepare_drive(int a) {
-    state_.extension[a].cap = 0;
-    generators_.set_drive_speed(a);
-}
-
-/// Determines the deceleration method of the new drive.
-void Chip::choose_deceleration(int a) {
-    Generator& gen = state_.axis[a].gen;
-    const bool automatic = !gen.manual && !gen.s_curve;
-    gen.weighted = automatic && gen.own_deceleration && gen.drive != Drive::continuous;
-    gen.no_triangle = automatic && gen.drive == Drive::fixed && em::AVTRI.test(state_.extension[a].em6);
-}
-
 // ---- deviation counter clear
 
 void Chip::ask_clear(int a) {

@@ -76,7 +76,7 @@ void Chip::sample_external_drive(int a) {
         const bool high = level(axis, minus ? Pin::exp_minus : Pin::exp_plus);
         const bool rises = high && axis.external_low[minus] > 0;
         if (falls(axis.external_low[minus], high) && !state_.driving(a) && !axis.hold) {
-            start_drive(a, drive_code(continuous ? Drive::continuous : Drive::fixed, minus ? -1 : 1));
+            drives_.start(a, drive_code(continuous ? Drive::continuous : Drive::fixed, minus ? -1 : 1));
             if (continuous) axis.external = static_cast<std::uint8_t>(1 + minus);
         }
         if (rises && axis.external == 1 + minus) {
@@ -93,7 +93,7 @@ void Chip::sample_wheel(int a) {
     const bool high = level(axis, Pin::exp_plus), was_high = axis.external_low[0] == 0;
     axis.external_low[0] = high ? 0 : 2;
     if (high == was_high || level(axis, Pin::exp_minus) || state_.driving(a) || axis.hold) return;
-    start_drive(a, drive_code(Drive::fixed, high ? 1 : -1));
+    drives_.start(a, drive_code(Drive::fixed, high ? 1 : -1));
 }
 
 }  // namespace motionrack::mcx314

@@ -56,7 +56,7 @@ void Chip::go_home(int a, int hmst) {
     ext.home.hmst = hmst;
     ext.home.found = false;
     const int direction = step_direction(ext, drive.step) * (drive.back ? -1 : 1);
-    start_drive(a, drive_code(drive.step == 4 ? Drive::fixed : Drive::continuous, direction));
+    drives_.start(a, drive_code(drive.step == 4 ? Drive::fixed : Drive::continuous, direction));
 }
 
 /// Starts the first enabled step from `step` on; returns false if there is none, or on an error.

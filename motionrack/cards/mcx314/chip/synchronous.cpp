@@ -55,10 +55,10 @@ void Chip::act_alone(int a) {
     for (const Act& each : sets)
         if (asked(each.action)) data_write(each.code, a);
     if (asked(sm::OPSET) && axis.gen.drive == Drive::fixed) generators_.check_final(a);
-    if (asked(sm::SSTOP)) ask_stop(1u << a, false);
-    if (asked(sm::ISTOP)) ask_stop(1u << a, true);
+    if (asked(sm::SSTOP)) drives_.ask_stop(1u << a, false);
+    if (asked(sm::ISTOP)) drives_.ask_stop(1u << a, true);
     for (const Act& each : drives)
-        if (asked(each.action)) drive_command(each.code, 1u << a);
+        if (asked(each.action)) drives_.command(each.code, 1u << a);
     if (asked(sm::OUT)) ask_clear(a);
     if (asked(sm::INT)) axis.flags |= rr3::SYNC.mask;
 }
