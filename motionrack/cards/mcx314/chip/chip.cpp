@@ -127,13 +127,13 @@ void Chip::on_scheduled(Instant now) {
 void Chip::begin() {
     state_.begun = true;
     for (int a = 0; a < axes_of_chip; ++a) {
-        set_wants(a);
+        inputs_.set_wants(a);
         encoders_.watch(a);
     }
     kernel_.subscribe(wires_.emergency, id_, true);
     state_.emergency_high = kernel_.level(wires_.emergency) != 0;
     kernel_.subscribe(wires_.step, id_, true);
-    hear_step_wire(kernel_.level(wires_.step));
+    inputs_.hear_step_wire(kernel_.level(wires_.step));
     state_.emergency_filter.wire = state_.emergency_high;
     state_.step_filter.wire = state_.step_high;
     note_followers();
@@ -170,14 +170,14 @@ void Chip::on_wire(int pin, int wire_level, Instant now) {
         if (!passes_filter(pin, wire_level)) return settle(now);
     }
     if (pin == ChipWires::step_pin) {
-        hear_step_wire(wire_level);
+        inputs_.hear_step_wire(wire_level);
         return settle(now);
     }
     if (pin == ChipWires::emergency_pin) {
         state_.emergency_high = wire_level != 0;
     } else {
         set_level(state_.axis[pin / 16].levels, pin % 16, wire_level != 0);
-        hear_external(pin);
+        inputs_.hear_external(pin);
     }
     requests_.look_anew();
     settle(now);

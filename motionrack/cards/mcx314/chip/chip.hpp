@@ -22,6 +22,7 @@
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
 #include <motionrack/cards/mcx314/chip/fast_forward.hpp>
 #include <motionrack/cards/mcx314/chip/generators.hpp>
+#include <motionrack/cards/mcx314/chip/input_pins.hpp>
 #include <motionrack/cards/mcx314/chip/motion_law.hpp>
 #include <motionrack/cards/mcx314/chip/options.hpp>
 #include <motionrack/cards/mcx314/chip/pattern_stack.hpp>
@@ -121,7 +122,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void deliver_edges(int axis);
 
     // wires.cpp: inputs and outputs
-    void set_wants(int axis);
     void update_outputs();
     int pulse_level(int a, int which, bool pulse, int direction) const;
     int output_level(int a, int output) const;
@@ -149,11 +149,8 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
 
     // external.cpp: drives and single steps by wire
     void set_external(int a, std::uint16_t before);
-    void hear_external(int pin);
-    void hear_step_wire(int wire_level);
     void sample_external();
     void sample_external_drive(int a);
-    bool turns_by_wire(int a) const;
     void sample_wheel(int a);
 
     void skip_to(std::int64_t tick);
@@ -170,7 +167,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     std::uint16_t main_status() const;
     std::uint16_t status1(int a) const;
     std::uint16_t status2(int a) const;
-    std::uint16_t input_levels(int a) const;
 
     // Only the MCX314As: extension.cpp
     bool extended_command(int code, unsigned axes);
@@ -180,7 +176,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     static bool has_extended_command(int code);
     void ask_clear(int a);
     // filters.cpp: inputs, once per tick
-    unsigned inputs_of_extension(int a) const;
     bool passes_filter(int pin, int wire_level);
     void set_filters(int a);
     void sample(std::int64_t tick);
@@ -215,6 +210,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     PatternStack patterns_{state_.pattern, kernel_, id_};
     Generators generators_{
         state_, options_, {requests_, listeners_, law_, edges_, conditions_, comparators_, patterns_, forward_}};
+    InputPins inputs_{state_, options_, kernel_, id_, wires_};
     Drives drives_{state_, options_, kernel_, id_, requests_, conditions_, generators_};
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderListener, axes_of_chip> encoder_listeners_;

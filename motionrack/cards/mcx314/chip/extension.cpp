@@ -50,7 +50,7 @@ void Chip::extended_write(int code, int a) {
             ext.sm6 = state_.wr6;
             ext.sm7 = state_.wr7;
             conditions_.hear_comparisons(a);
-            set_wants(a);
+            inputs_.set_wants(a);
             encoders_.watch(a);
             ext.sampled = state_.axis[a].levels;
             break;

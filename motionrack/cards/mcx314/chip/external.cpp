@@ -13,8 +13,6 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr std::uint32_t step_wire = 1u << axes_of_chip;  // in State::sampled
-
 /// Counts the ticks at which an input is Low; returns true at the second one.
 bool falls(std::uint8_t& low, bool high) {
     if (high)
@@ -36,37 +34,20 @@ void Chip::set_external(int a, std::uint16_t before) {
         state_.sampled |= 1u << a;
     else
         axis.external_low = {2, 2};
-    set_wants(a);
-    if (turns_by_wire(a)) axis.external_low[0] = level(axis, Pin::exp_plus) ? 0 : 2;
-}
-
-/// True if nEXPP and nEXPM are the lines A and B of a hand wheel.
-bool Chip::turns_by_wire(int a) const {
-    return extended_ && external_mode(state_.axis[a].wr3) == external_wheel;
-}
-
-/// Handles a change of a pin of axis 16 * axis + Pin.
-void Chip::hear_external(int pin) {
-    const int which = pin % 16;
-    if (which == static_cast<int>(Pin::exp_plus) || which == static_cast<int>(Pin::exp_minus))
-        state_.sampled |= 1u << pin / 16;
-}
-
-void Chip::hear_step_wire(int wire_level) {
-    state_.step_high = wire_level != 0;
-    if (!state_.step_high || state_.step_low != 0) state_.sampled |= step_wire;
+    inputs_.set_wants(a);
+    if (inputs_.turns_by_wire(a)) axis.external_low[0] = level(axis, Pin::exp_plus) ? 0 : 2;
 }
 
 /// Executes the requests of the changed wires after a tick.
 void Chip::sample_external() {
     const std::uint32_t sampled = std::exchange(state_.sampled, 0u);
-    for_each_axis(sampled & (step_wire - 1), [this](int a) {
+    for_each_axis(sampled & (InputPins::step_wire - 1), [this](int a) {
         if (drives_by_wire(state_.axis[a].wr3)) sample_external_drive(a);
-        if (turns_by_wire(a)) sample_wheel(a);
+        if (inputs_.turns_by_wire(a)) sample_wheel(a);
     });
-    if (!(sampled & step_wire)) return;
+    if (!(sampled & InputPins::step_wire)) return;
     if (falls(state_.step_low, state_.step_high)) generators_.ask_step(PathCommand::by_wire);
-    if (state_.step_low == 1) state_.sampled |= step_wire;
+    if (state_.step_low == 1) state_.sampled |= InputPins::step_wire;
 }
 
 void Chip::sample_external_drive(int a) {

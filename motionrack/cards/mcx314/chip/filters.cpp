@@ -12,37 +12,22 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr unsigned mask(Pin pin) {
-    return 1u << static_cast<int>(pin);
-}
-
 /// The pins with the filters FE0..FE4 of EM6.
 constexpr std::array<unsigned, 5> filter_pins = {
-    mask(Pin::limit_plus) | mask(Pin::limit_minus) | mask(Pin::in0) | mask(Pin::in1),
-    mask(Pin::in2),
-    mask(Pin::alarm) | mask(Pin::in_position),
-    mask(Pin::exp_plus) | mask(Pin::exp_minus),
-    mask(Pin::in3),
+    pin_mask(Pin::limit_plus) | pin_mask(Pin::limit_minus) | pin_mask(Pin::in0) | pin_mask(Pin::in1),
+    pin_mask(Pin::in2),
+    pin_mask(Pin::alarm) | pin_mask(Pin::in_position),
+    pin_mask(Pin::exp_plus) | pin_mask(Pin::exp_minus),
+    pin_mask(Pin::in3),
 };
 constexpr Field emergency_is_filtered = em::FE0, step_is_filtered = em::FE3;  // of X
-constexpr unsigned edge_pins = mask(Pin::in2) | mask(Pin::in3);
+constexpr unsigned edge_pins = pin_mask(Pin::in2) | pin_mask(Pin::in3);
 
 std::int64_t delay_of(const Extension& ext) {
     return map::filter_ticks[em::FL.get(ext.em6)];
 }
 
 }  // namespace
-
-/// Pins whose wires must be followed for MCX314As functions.
-unsigned Chip::inputs_of_extension(int a) const {
-    const Extension& ext = state_.extension[a];
-    unsigned pins = ext.filtered;
-    if (bit(state_.homing, a)) pins |= mask(Pin::in0) | mask(Pin::in1) | mask(Pin::in2);
-    if (em::EPCLR.test(ext.em6)) pins |= mask(Pin::in2);
-    if (turns_by_wire(a)) pins |= mask(Pin::exp_plus) | mask(Pin::exp_minus);
-    if (sm::IN3UP.test(ext.sm6) || sm::IN3DN.test(ext.sm6)) pins |= mask(Pin::in3);
-    return pins;
-}
 
 /// Applies a write to EM: filters begin with the level of their wires, or end.
 void Chip::set_filters(int a) {
@@ -60,10 +45,10 @@ void Chip::set_filters(int a) {
     });
     ext.filtered = static_cast<std::uint16_t>(pins);
     if (a == 0 && !emergency_is_filtered.test(ext.em6)) state_.emergency_high = state_.emergency_filter.wire != 0;
-    if (a == 0 && !step_is_filtered.test(ext.em6)) hear_step_wire(static_cast<int>(state_.step_filter.wire));
-    set_wants(a);
+    if (a == 0 && !step_is_filtered.test(ext.em6)) inputs_.hear_step_wire(static_cast<int>(state_.step_filter.wire));
+    inputs_.set_wants(a);
     ext.sampled = state_.axis[a].levels;
-    hear_external(16 * a + static_cast<int>(Pin::exp_plus));
+    inputs_.hear_external(16 * a + static_cast<int>(Pin::exp_plus));
     requests_.wake();
 }
 
@@ -89,7 +74,7 @@ void Chip::sample(std::int64_t to) {
     bool changed = sample_chip_filter(state_.emergency_filter, emergency_is_filtered, state_.emergency_high, to);
     if (changed) state_.emergency_high = !state_.emergency_high;
     if (sample_chip_filter(state_.step_filter, step_is_filtered, state_.step_high, to))
-        hear_step_wire(state_.step_high ? 0 : 1);
+        inputs_.hear_step_wire(state_.step_high ? 0 : 1);
     for (int a = 0; a < axes_of_chip; ++a) {
         if (sample_filters(a, to)) changed = true;
         sample_edges(a);
@@ -134,7 +119,7 @@ bool Chip::sample_filters(int a, std::int64_t to) {
             return;
         }
         set_level(axis.levels, pin, bit(ext.wires, pin));
-        hear_external(16 * a + pin);
+        inputs_.hear_external(16 * a + pin);
         since = -1;
         changed = true;
     });
@@ -147,8 +132,8 @@ void Chip::sample_edges(int a) {
     Axis& axis = state_.axis[a];
     const unsigned changed = (axis.levels ^ std::exchange(ext.sampled, axis.levels)) & edge_pins;
     if (changed == 0) return;
-    if ((changed & mask(Pin::in3)) != 0) conditions_.note(a, level(axis, Pin::in3) ? sm::IN3UP : sm::IN3DN);
-    if ((changed & mask(Pin::in2)) == 0 || !em::EPCLR.test(ext.em6)) return;
+    if ((changed & pin_mask(Pin::in3)) != 0) conditions_.note(a, level(axis, Pin::in3) ? sm::IN3UP : sm::IN3DN);
+    if ((changed & pin_mask(Pin::in2)) == 0 || !em::EPCLR.test(ext.em6)) return;
     if (!input_active(axis, 2)) return;
     encoders_.set_position(a, 0);
     if (!wr2::CMPSL.test(axis.wr2)) return;

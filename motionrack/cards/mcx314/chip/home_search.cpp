@@ -45,7 +45,7 @@ void Chip::start_home(int a) {
     if (state_.driving(a)) return kernel_.report(id_, drive_ignored, static_cast<std::int64_t>(cmd::HOME), a);
     state_.extension[a].home = {};
     state_.homing |= 1u << a;
-    set_wants(a);
+    inputs_.set_wants(a);
     if (!next_home_step(a, 1)) end_home(a);
 }
 
@@ -90,7 +90,7 @@ void Chip::end_home(int a) {
     state_.homing &= ~(1u << a);
     ext.home.hmst = 0;
     generators_.set_drive_speed(a);
-    set_wants(a);
+    inputs_.set_wants(a);
     if (em::HMINT.test(ext.em6)) state_.axis[a].flags |= rr3::HMEND.mask;
 }
 

@@ -36,11 +36,11 @@ void Chip::reset() {
     state_.queued = state_.decel_enabled = state_.path_interrupt = state_.stepping = false;
     patterns_.reset();
     state_.wr0_high = state_.step_low = 0;
-    hear_step_wire(kernel_.level(wires_.step));
+    inputs_.hear_step_wire(kernel_.level(wires_.step));
     // An input may be connected to an output of the chip, which then reads the chip: its state is consistent here.
     for (int a = 0; a < axes_of_chip; ++a) {
         encoders_.set_position(a, 0);
-        set_wants(a);
+        inputs_.set_wants(a);
         encoders_.watch(a);
     }
     for (int a = 0; a < axes_of_chip; ++a) comparators_.compare(a);
@@ -108,7 +108,7 @@ void Chip::write_mode(std::uint32_t offset, int a, const MaskedWrite& put) {
         encoders_.set_position(a, ep_now);  // the edge ratio may have changed
         comparators_.compare(a);
     }
-    set_wants(a);
+    inputs_.set_wants(a);
     encoders_.watch(a);
 }
 

@@ -263,6 +263,9 @@ inline constexpr unsigned external_continuous = 1, external_fixed = 2, external_
 constexpr bool drives_by_wire(std::uint16_t wr3) {
     return external_mode(wr3) == external_continuous || external_mode(wr3) == external_fixed;
 }
+constexpr unsigned pin_mask(Pin pin) {
+    return 1u << static_cast<int>(pin);
+}
 constexpr bool level(const Axis& axis, Pin pin) {
     return bit(axis.levels, static_cast<int>(pin));
 }

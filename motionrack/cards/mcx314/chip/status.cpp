@@ -41,9 +41,9 @@ std::uint16_t Chip::peek(std::uint32_t offset) const {
         case reg::RR3:
             return state_.axis[state_.first_selected()].flags;
         case reg::RR4:
-            return static_cast<std::uint16_t>(input_levels(0) | input_levels(1) << 8);
+            return static_cast<std::uint16_t>(inputs_.input_levels(0) | inputs_.input_levels(1) << 8);
         case reg::RR5:
-            return static_cast<std::uint16_t>(input_levels(2) | input_levels(3) << 8);
+            return static_cast<std::uint16_t>(inputs_.input_levels(2) | inputs_.input_levels(3) << 8);
         case reg::RR6:
             return state_.rr6;
         case reg::RR7:
@@ -95,15 +95,6 @@ std::uint16_t Chip::status2(int a) const {
     const HomingSequence& home = state_.extension[a].home;
     if (home.error) v |= rr2::HOME.mask;
     return rr2::HMST.set(v, static_cast<unsigned>(home.hmst));
-}
-
-/// RR4 and RR5: eight input levels of one axis; filtered inputs show the output of the filter.
-std::uint16_t Chip::input_levels(int a) const {
-    const unsigned filtered = state_.extension[a].filtered;
-    unsigned v = state_.axis[a].levels & filtered & 0xFFu;
-    for (int i = 0; i < 8; ++i)
-        if (!bit(filtered, i)) v |= static_cast<unsigned>(kernel_.level(wires_.inputs[a][i]) != 0) << i;
-    return static_cast<std::uint16_t>(v);
 }
 
 }  // namespace motionrack::mcx314

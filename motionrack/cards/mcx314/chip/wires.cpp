@@ -6,31 +6,6 @@
 
 namespace motionrack::mcx314 {
 
-// ---- inputs
-
-/// Disabled inputs are not subscribed, so a wire that is computed on demand (an index) costs no time.
-void Chip::set_wants(int a) {
-    Axis& axis = state_.axis[a];
-    const unsigned filtered = state_.extension[a].filtered, also = extended_ ? inputs_of_extension(a) : 0u;
-    auto set = [&](Pin pin, bool wanted) {
-        const int i = static_cast<int>(pin);
-        wanted = wanted || bit(also, i);
-        kernel_.subscribe(wires_.inputs[a][i], id_, wanted);
-        if (bit(filtered, i)) return;  // its level is that of the filter
-        set_level(axis.levels, i, !wanted || kernel_.level(wires_.inputs[a][i]) != 0);
-    };
-    for (int i = 0; i < 4; ++i) set(static_cast<Pin>(i), stop_input_enabled(axis, i));
-    set(Pin::exp_plus, drives_by_wire(axis.wr3));
-    set(Pin::exp_minus, drives_by_wire(axis.wr3));
-    set(Pin::in_position, wr2::INPE.test(axis.wr2));
-    set(Pin::alarm, wr2::ALME.test(axis.wr2));
-    set(Pin::limit_plus, true);
-    set(Pin::limit_minus, true);
-    for (int i = 0; i < 2; ++i) kernel_.subscribe(wires_.encoders[a][i], id_, true);
-}
-
-// ---- outputs
-
 void Chip::update_outputs() {
     for (int a = 0; a < axes_of_chip; ++a)
         for (int i = 0; i < 4; ++i) kernel_.set_wire(wires_.general_outputs[a][i], state_.wr4 >> (4 * a + i) & 1);
