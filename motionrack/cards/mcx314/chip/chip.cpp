@@ -45,7 +45,7 @@ void Chip::work_to(std::int64_t to) {
 /// form, the others by the rules. Generators without an event, and without a path that depends on them, stay behind.
 void Chip::work_off(std::int64_t to) {
     state_.tick = to;
-    if (state_.next_sample <= to) sample(to);
+    if (state_.next_sample <= to) filters_.sample(to);
     for_each_axis(state_.working, [&](int a) {
         Axis& axis = state_.axis[a];
         const bool path = axis.gen.drive == Drive::path;
@@ -167,7 +167,7 @@ void Chip::on_wire(int pin, int wire_level, Instant now) {
     if (pin >= ChipWires::encoder_pin) return encoder_lines((pin - ChipWires::encoder_pin) / 2, now);
     if (extended_) {
         requests_.wake();
-        if (!passes_filter(pin, wire_level)) return settle(now);
+        if (!filters_.passes(pin, wire_level)) return settle(now);
     }
     if (pin == ChipWires::step_pin) {
         inputs_.hear_step_wire(wire_level);

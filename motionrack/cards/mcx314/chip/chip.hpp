@@ -22,6 +22,7 @@
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
 #include <motionrack/cards/mcx314/chip/fast_forward.hpp>
 #include <motionrack/cards/mcx314/chip/generators.hpp>
+#include <motionrack/cards/mcx314/chip/input_filters.hpp>
 #include <motionrack/cards/mcx314/chip/input_pins.hpp>
 #include <motionrack/cards/mcx314/chip/motion_law.hpp>
 #include <motionrack/cards/mcx314/chip/options.hpp>
@@ -175,13 +176,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void set_ring_end(int a, std::int32_t value);
     static bool has_extended_command(int code);
     void ask_clear(int a);
-    // filters.cpp: inputs, once per tick
-    bool passes_filter(int pin, int wire_level);
-    void set_filters(int a);
-    void sample(std::int64_t tick);
-    bool sample_filters(int a, std::int64_t tick);
-    bool sample_chip_filter(ChipFilter& filter, Field enable, bool seen, std::int64_t tick);
-    void sample_edges(int a);
     // home_search.cpp
     void start_home(int a);
     void go_home(int a, int hmst);
@@ -211,6 +205,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     Generators generators_{
         state_, options_, {requests_, listeners_, law_, edges_, conditions_, comparators_, patterns_, forward_}};
     InputPins inputs_{state_, options_, kernel_, id_, wires_};
+    InputFilters filters_{state_, kernel_, wires_, requests_, inputs_, conditions_, encoders_, comparators_, forward_};
     Drives drives_{state_, options_, kernel_, id_, requests_, conditions_, generators_};
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderListener, axes_of_chip> encoder_listeners_;

@@ -71,7 +71,7 @@ void Chip::set_extension(int a) {
     axis.lp = stepped(axis, axis.lp, 0);
     encoders_.set_position(a, position);
     comparators_.compare(a);
-    set_filters(a);
+    filters_.set(a);
     encoders_.watch(a);
 }
 

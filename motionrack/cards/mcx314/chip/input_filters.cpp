@@ -4,8 +4,7 @@
 //               └──┘ └─┘                        tick n + D do, the chip sees the new level from tick n + D on
 //   level   ─────────────────────────
 //                      |<─ D ─>|
-#include <motionrack/cards/mcx314/chip/chip.hpp>
-#include <motionrack/cards/mcx314/chip/ramp.hpp>
+#include <motionrack/cards/mcx314/chip/input_filters.hpp>
 #include <utility>
 
 namespace motionrack::mcx314 {
@@ -30,7 +29,7 @@ std::int64_t delay_of(const Extension& ext) {
 }  // namespace
 
 /// Applies a write to EM: filters begin with the level of their wires, or end.
-void Chip::set_filters(int a) {
+void InputFilters::set(int a) {
     Extension& ext = state_.extension[a];
     unsigned pins = 0;
     for (std::size_t i = 0; i < filter_pins.size(); ++i)
@@ -53,7 +52,7 @@ void Chip::set_filters(int a) {
 }
 
 /// Handles a change of a wire; returns false if the wire has a filter, which then takes the change.
-bool Chip::passes_filter(int pin, int wire_level) {
+bool InputFilters::passes(int pin, int wire_level) {
     const unsigned chip_filters = state_.extension[0].em6;
     if (pin == ChipWires::emergency_pin) {
         state_.emergency_filter.wire = wire_level != 0;
@@ -69,14 +68,14 @@ bool Chip::passes_filter(int pin, int wire_level) {
 }
 
 /// Applies the samples of tick `to` before the tick is executed.
-void Chip::sample(std::int64_t to) {
+void InputFilters::sample(std::int64_t to) {
     state_.next_sample = far;
     bool changed = sample_chip_filter(state_.emergency_filter, emergency_is_filtered, state_.emergency_high, to);
     if (changed) state_.emergency_high = !state_.emergency_high;
     if (sample_chip_filter(state_.step_filter, step_is_filtered, state_.step_high, to))
         inputs_.hear_step_wire(state_.step_high ? 0 : 1);
     for (int a = 0; a < axes_of_chip; ++a) {
-        if (sample_filters(a, to)) changed = true;
+        if (sample_axis(a, to)) changed = true;
         sample_edges(a);
         if (const std::int64_t end = state_.extension[a].clear_until; end > to)
             state_.next_sample = std::min(state_.next_sample, end);
@@ -85,7 +84,7 @@ void Chip::sample(std::int64_t to) {
 }
 
 /// Filters EMGN or EXPLSN, whose level in the chip is `seen`; returns true if that level must change.
-bool Chip::sample_chip_filter(ChipFilter& filter, Field enable, bool seen, std::int64_t to) {
+bool InputFilters::sample_chip_filter(ChipFilter& filter, Field enable, bool seen, std::int64_t to) {
     const Extension& x = state_.extension[0];
     if (!enable.test(x.em6) || (filter.wire != 0) == seen) {
         filter.since = -1;
@@ -102,7 +101,7 @@ bool Chip::sample_chip_filter(ChipFilter& filter, Field enable, bool seen, std::
 }
 
 /// Returns true if a level has changed.
-bool Chip::sample_filters(int a, std::int64_t to) {
+bool InputFilters::sample_axis(int a, std::int64_t to) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];
     bool changed = false;
@@ -127,7 +126,7 @@ bool Chip::sample_filters(int a, std::int64_t to) {
 }
 
 /// IN2 clears EP, IN3 is a condition of synchronous actions.
-void Chip::sample_edges(int a) {
+void InputFilters::sample_edges(int a) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];
     const unsigned changed = (axis.levels ^ std::exchange(ext.sampled, axis.levels)) & edge_pins;
