@@ -22,6 +22,7 @@
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
 #include <motionrack/cards/mcx314/chip/fast_forward.hpp>
 #include <motionrack/cards/mcx314/chip/generators.hpp>
+#include <motionrack/cards/mcx314/chip/home_search.hpp>
 #include <motionrack/cards/mcx314/chip/input_filters.hpp>
 #include <motionrack/cards/mcx314/chip/input_pins.hpp>
 #include <motionrack/cards/mcx314/chip/motion_law.hpp>
@@ -175,14 +176,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void set_extension(int a);
     void set_ring_end(int a, std::int32_t value);
     static bool has_extended_command(int code);
-    void ask_clear(int a);
-    // home_search.cpp
-    void start_home(int a);
-    void go_home(int a, int hmst);
-    bool next_home_step(int a, int step);
-    void end_home_drive(int a);
-    void end_home(int a);
-    void look_at_homes();
     // synchronous.cpp
     void act_together();
     void act_alone(int a);
@@ -207,6 +200,8 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     InputPins inputs_{state_, options_, kernel_, id_, wires_};
     InputFilters filters_{state_, kernel_, wires_, requests_, inputs_, conditions_, encoders_, comparators_, forward_};
     Drives drives_{state_, options_, kernel_, id_, requests_, conditions_, generators_};
+    ChipHomeSearch homes_{state_,    kernel_,      id_,      requests_,   inputs_,
+                          encoders_, comparators_, forward_, generators_, drives_};
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderListener, axes_of_chip> encoder_listeners_;
 };

@@ -40,10 +40,10 @@ void Chip::extended_write(int code, int a) {
             generators_.set_drive_speed(a);
             break;
         case cmd::HOME:
-            start_home(a);
+            homes_.start(a);
             break;
         case cmd::DCC:
-            ask_clear(a);
+            homes_.ask_clear(a);
             break;
         case cmd::SM:
             comparators_.compare(a);  // unsubscribed comparisons are not evaluated
@@ -82,15 +82,6 @@ void Chip::set_ring_end(int a, std::int32_t value) {
     axis.comp_plus = value;
     axis.lp = stepped(axis, axis.lp, 0);
     encoders_.set_position(a, position);
-}
-
-// ---- deviation counter clear
-
-void Chip::ask_clear(int a) {
-    Extension& ext = state_.extension[a];
-    if (!em::DCCE.test(ext.em7)) return;
-    ext.clear_until = state_.tick + map::clear_ticks[em::DCCW.get(ext.em7)];
-    requests_.sample_at(ext.clear_until);
 }
 
 }  // namespace motionrack::mcx314

@@ -3,7 +3,7 @@
 //   62h ─► step 1 ─► step 2 ────────────────► step 3 ─► step 4 ─► end
 //           (3)       (8)     (12) ─► (15)     (20)      (25)             in brackets: HMST
 //                      └─ IN1 or the limit ─┘
-#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/chip_conditions.hpp>
 #include <motionrack/cards/mcx314/chip/home_search.hpp>
 
 namespace motionrack::mcx314 {
@@ -41,16 +41,16 @@ bool home_found(State& state, int a) {
 }
 
 /// 62h.
-void Chip::start_home(int a) {
+void ChipHomeSearch::start(int a) {
     if (state_.driving(a)) return kernel_.report(id_, drive_ignored, static_cast<std::int64_t>(cmd::HOME), a);
     state_.extension[a].home = {};
     state_.homing |= 1u << a;
     inputs_.set_wants(a);
-    if (!next_home_step(a, 1)) end_home(a);
+    if (!next_step(a, 1)) finish(a);
 }
 
 /// Starts the drive of a state.
-void Chip::go_home(int a, int hmst) {
+void ChipHomeSearch::go(int a, int hmst) {
     Extension& ext = state_.extension[a];
     const map::HomeDrive& drive = map::home_drive(hmst);
     ext.home.hmst = hmst;
@@ -60,21 +60,21 @@ void Chip::go_home(int a, int hmst) {
 }
 
 /// Starts the first enabled step from `step` on; returns false if there is none, or on an error.
-bool Chip::next_home_step(int a, int step) {
+bool ChipHomeSearch::next_step(int a, int step) {
     Extension& ext = state_.extension[a];
     HomingSequence& home = ext.home;
-    if (step <= 1 && step_enabled(ext, 1) && !home_input(state_, a, 1)) return go_home(a, 3), true;
+    if (step <= 1 && step_enabled(ext, 1) && !home_input(state_, a, 1)) return go(a, 3), true;
     if (step <= 2 && step_enabled(ext, 2)) {
         home.seen = home_input(state_, a, 2);
         const bool at_limit = limit_active(state_.axis[a], step_direction(ext, 2));
-        return go_home(a, home.seen || at_limit ? 12 : 8), true;
+        return go(a, home.seen || at_limit ? 12 : 8), true;
     }
     if (step <= 3 && step_enabled(ext, 3)) {
-        if (!home_input(state_, a, 3)) return go_home(a, 20), true;
+        if (!home_input(state_, a, 3)) return go(a, 20), true;
         home.error = true;
         return false;
     }
-    if (step <= 4 && step_enabled(ext, 4)) return go_home(a, 25), true;
+    if (step <= 4 && step_enabled(ext, 4)) return go(a, 25), true;
     if (!step_enabled(ext, 3)) ask_clear(a);
     if (em::PCLR.test(ext.em7)) {
         state_.axis[a].lp = 0;
@@ -85,7 +85,7 @@ bool Chip::next_home_step(int a, int step) {
     return false;
 }
 
-void Chip::end_home(int a) {
+void ChipHomeSearch::finish(int a) {
     Extension& ext = state_.extension[a];
     state_.homing &= ~(1u << a);
     ext.home.hmst = 0;
@@ -95,18 +95,18 @@ void Chip::end_home(int a) {
 }
 
 /// Continues after the drive of a step.
-void Chip::end_home_drive(int a) {
+void ChipHomeSearch::end_drive(int a) {
     Extension& ext = state_.extension[a];
     HomingSequence& home = ext.home;
     const Axis& axis = state_.axis[a];
     const map::HomeDrive& drive = map::home_drive(home.hmst);
-    if (home.cancelled) return end_home(a);
+    if (home.cancelled) return finish(a);
     const unsigned errors = axis.finished & rr1::errors.mask;
     const unsigned own_limit = step_direction(ext, drive.step) > 0 ? rr1::LMTP.mask : rr1::LMTM.mask;
     const bool limit_is_home = em::LIMIT.test(ext.em7);
     if (home.hmst == 8 && !limit_is_home && errors == own_limit) {
         home.seen = home_input(state_, a, 2);
-        return go_home(a, 12);
+        return go(a, 12);
     }
     const bool tolerated = drive.step <= 2 && !drive.back && limit_is_home;
     const bool sound = (errors & ~(tolerated ? own_limit : 0u)) == 0;
@@ -115,27 +115,34 @@ void Chip::end_home_drive(int a) {
         reached = true;
     else if (!sound)
         reached = false;
-    if (!reached) return end_home(a);
-    if (home.hmst == 12) return go_home(a, 15);
+    if (!reached) return finish(a);
+    if (home.hmst == 12) return go(a, 15);
     if (drive.step == 3 && !home.cleared) {
         home.cleared = true;
         ask_clear(a);
         if (ext.clear_until > state_.tick) return;
     }
-    if (!next_home_step(a, drive.step + 1)) end_home(a);
+    if (!next_step(a, drive.step + 1)) finish(a);
 }
 
 /// At the end of a tick: continues searches whose drive has ended.
-void Chip::look_at_homes() {
+void ChipHomeSearch::look() {
     for_each_axis(state_.homing, [&](int a) {
         const Extension& ext = state_.extension[a];
         if (state_.axis[a].gen.drive != Drive::idle) return;
         const bool clearing = ext.home.cleared && ext.clear_until > state_.tick;
         if ((bit(state_.in_place, a) || clearing) && !ext.home.cancelled) return;
         for_each_axis(state_.working, [&](int i) { forward_.bring_up(i, state_.tick); });
-        end_home_drive(a);
+        end_drive(a);
         requests_.make_stale();
     });
+}
+
+void ChipHomeSearch::ask_clear(int a) {
+    Extension& ext = state_.extension[a];
+    if (!em::DCCE.test(ext.em7)) return;
+    ext.clear_until = state_.tick + map::clear_ticks[em::DCCW.get(ext.em7)];
+    requests_.sample_at(ext.clear_until);
 }
 
 }  // namespace motionrack::mcx314

@@ -59,7 +59,7 @@ void Chip::act_alone(int a) {
     if (asked(sm::ISTOP)) drives_.ask_stop(1u << a, true);
     for (const Act& each : drives)
         if (asked(each.action)) drives_.command(each.code, 1u << a);
-    if (asked(sm::OUT)) ask_clear(a);
+    if (asked(sm::OUT)) homes_.ask_clear(a);
     if (asked(sm::INT)) axis.flags |= rr3::SYNC.mask;
 }
 
