@@ -68,7 +68,7 @@ void Chip::work_off(std::int64_t to) {
     });
     if ((state_.in_place | state_.sampled | state_.homing | state_.acting) == 0) return;
     look_at_in_position();
-    sample_external();
+    external_.execute_requests();
     homes_.look();
     if (state_.acting != 0) act_together();
 }

@@ -20,6 +20,7 @@
 #include <motionrack/cards/mcx314/chip/edge_stream.hpp>
 #include <motionrack/cards/mcx314/chip/encoder_inputs.hpp>
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
+#include <motionrack/cards/mcx314/chip/external_drives.hpp>
 #include <motionrack/cards/mcx314/chip/fast_forward.hpp>
 #include <motionrack/cards/mcx314/chip/generators.hpp>
 #include <motionrack/cards/mcx314/chip/home_search.hpp>
@@ -149,12 +150,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     int clear_state(int a) const;
     int action_state(int a) const;
 
-    // external.cpp: drives and single steps by wire
-    void set_external(int a, std::uint16_t before);
-    void sample_external();
-    void sample_external_drive(int a);
-    void sample_wheel(int a);
-
     void skip_to(std::int64_t tick);
     void look_at_in_position();
 
@@ -200,6 +195,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     InputPins inputs_{state_, options_, kernel_, id_, wires_};
     InputFilters filters_{state_, kernel_, wires_, requests_, inputs_, conditions_, encoders_, comparators_, forward_};
     Drives drives_{state_, options_, kernel_, id_, requests_, conditions_, generators_};
+    ExternalDrives external_{state_, inputs_, generators_, drives_};
     ChipHomeSearch homes_{state_,    kernel_,      id_,      requests_,   inputs_,
                           encoders_, comparators_, forward_, generators_, drives_};
     std::array<Output, axes_of_chip> outputs_;

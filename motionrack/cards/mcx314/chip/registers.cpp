@@ -95,7 +95,7 @@ void Chip::write_mode(std::uint32_t offset, int a, const MaskedWrite& put) {
     if (offset == reg::WR3) {
         const std::uint16_t before = axis.wr3;
         GeneralOutputs::write_modes(*this, a, put);
-        return set_external(a, before);
+        return external_.change_mode(a, before);
     }
     if (offset == reg::WR1) {
         // The counter has moved without comparisons while they were disabled: only later changes count.

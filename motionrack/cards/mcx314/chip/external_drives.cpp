@@ -6,7 +6,7 @@
 //   EXOP 2            20h                 after all generators have executed tick f + 1
 //   EXOP 1            22h      26h
 //   EXOP 3 (MCX314As): nEXPP rises: 20h, falls: 21h, while nEXPM is Low
-#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/external_drives.hpp>
 #include <utility>
 
 namespace motionrack::mcx314 {
@@ -25,7 +25,7 @@ bool falls(std::uint8_t& low, bool high) {
 }  // namespace
 
 /// WR3 was written over `before`.
-void Chip::set_external(int a, std::uint16_t before) {
+void ExternalDrives::change_mode(int a, std::uint16_t before) {
     Axis& axis = state_.axis[a];
     if (external_mode(axis.wr3) == external_mode(before)) return;
     if (external_mode(before) == external_wheel) axis.external_low = {2, 2};
@@ -39,10 +39,10 @@ void Chip::set_external(int a, std::uint16_t before) {
 }
 
 /// Executes the requests of the changed wires after a tick.
-void Chip::sample_external() {
+void ExternalDrives::execute_requests() {
     const std::uint32_t sampled = std::exchange(state_.sampled, 0u);
     for_each_axis(sampled & (InputPins::step_wire - 1), [this](int a) {
-        if (drives_by_wire(state_.axis[a].wr3)) sample_external_drive(a);
+        if (drives_by_wire(state_.axis[a].wr3)) sample_drive(a);
         if (inputs_.turns_by_wire(a)) sample_wheel(a);
     });
     if (!(sampled & InputPins::step_wire)) return;
@@ -50,7 +50,7 @@ void Chip::sample_external() {
     if (state_.step_low == 1) state_.sampled |= InputPins::step_wire;
 }
 
-void Chip::sample_external_drive(int a) {
+void ExternalDrives::sample_drive(int a) {
     Axis& axis = state_.axis[a];
     const bool continuous = external_mode(axis.wr3) == external_continuous;
     for (int minus = 0; minus < 2; ++minus) {
@@ -69,7 +69,7 @@ void Chip::sample_external_drive(int a) {
 }
 
 /// With B Low a rising A drives P pulses in + direction, a falling one in - direction.
-void Chip::sample_wheel(int a) {
+void ExternalDrives::sample_wheel(int a) {
     Axis& axis = state_.axis[a];
     const bool high = level(axis, Pin::exp_plus), was_high = axis.external_low[0] == 0;
     axis.external_low[0] = high ? 0 : 2;
