@@ -14,8 +14,8 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
       extended_(options.extended()),
       wires_(kernel, id_, name) {
     for (int a = 0; a < axes_of_chip; ++a) {
-        outputs_[a].chip = encoder_listeners_[a].chip = this;
-        outputs_[a].axis = encoder_listeners_[a].axis = a;
+        positions_[a].chip = encoder_listeners_[a].chip = this;
+        positions_[a].axis = encoder_listeners_[a].axis = a;
     }
     for (int a = 0; a < axes_of_chip; ++a) {
         state_.axis[a].offset = options_.offset_after_reset;
@@ -110,7 +110,7 @@ void Chip::settle(Instant now) {
     if (state_.acting != 0) requests_.wake();
     notify_listeners(now);
     update_interrupt();
-    if (state_.following != 0) show_wires(now);
+    if (state_.following != 0) outputs_.show(now);
     if (requests_.stale()) reschedule();
     Instant next = state_.next_event > tick_of(never) ? never : Instant{state_.next_event * rules::tick_100ps};
     if (state_.crossed != 0) next = now + Duration{1};  // reports a range already left
@@ -136,7 +136,7 @@ void Chip::begin() {
     inputs_.hear_step_wire(kernel_.level(wires_.step));
     state_.emergency_filter.wire = state_.emergency_high;
     state_.step_filter.wire = state_.step_high;
-    note_followers();
+    outputs_.note_followers();
     requests_.make_stale();
 }
 
@@ -216,6 +216,17 @@ void Chip::encoder_lines(int a, Instant now) {
     settle(now);
 }
 
+int Chip::level_at(int pin, Instant now) const {
+    return outputs_.level_at(pin, tick_of(now));
+}
+
+void Chip::wanted_changed(int, bool, Instant now) {
+    if (!state_.begun) return;
+    catch_up(now);
+    outputs_.note_followers();
+    settle(now);
+}
+
 void Chip::update_interrupt() {
     bool active = state_.path_interrupt || state_.pattern.interrupt;
     for (const Axis& axis : state_.axis) active = active || axis.flags != 0;
@@ -285,14 +296,6 @@ void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
 
 std::int64_t Chip::pulses_made(int axis) {
     return state_.axis[axis].made;
-}
-std::int32_t Chip::lp(int axis) const {
-    // Between events the generators stay behind: pulses since then are counted but not yet executed.
-    const Axis& own = state_.axis[axis];
-    return stepped(own, own.lp, law_.count_at(axis, kernel_.now()) - own.count);
-}
-std::int32_t Chip::ep(int axis) const {
-    return encoders_.position(state_.axis[axis], axis);
 }
 
 }  // namespace motionrack::mcx314

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <motionrack/cards/mcx314/chip/action_conditions.hpp>
 #include <motionrack/cards/mcx314/chip/chip_conditions.hpp>
+#include <motionrack/cards/mcx314/chip/chip_values.hpp>
 #include <motionrack/cards/mcx314/chip/chip_wires.hpp>
 #include <motionrack/cards/mcx314/chip/comparators.hpp>
 #include <motionrack/cards/mcx314/chip/drives.hpp>
@@ -26,11 +27,14 @@
 #include <motionrack/cards/mcx314/chip/home_search.hpp>
 #include <motionrack/cards/mcx314/chip/input_filters.hpp>
 #include <motionrack/cards/mcx314/chip/input_pins.hpp>
+#include <motionrack/cards/mcx314/chip/machine_states.hpp>
 #include <motionrack/cards/mcx314/chip/motion_law.hpp>
 #include <motionrack/cards/mcx314/chip/options.hpp>
+#include <motionrack/cards/mcx314/chip/output_pins.hpp>
 #include <motionrack/cards/mcx314/chip/pattern_stack.hpp>
 #include <motionrack/cards/mcx314/chip/pulse_listeners.hpp>
 #include <motionrack/cards/mcx314/chip/state.hpp>
+#include <motionrack/cards/mcx314/chip/status_registers.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/position_function.hpp>
 #include <motionrack/sim/register_device.hpp>
@@ -48,14 +52,14 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
 
     std::uint16_t read(std::uint32_t offset) override;
     void write(std::uint32_t offset, std::uint16_t value) override;
-    std::uint16_t peek(std::uint32_t offset) const override;
+    std::uint16_t peek(std::uint32_t offset) const override { return status_.value(offset); }
     /// The 8-bit bus (see ByteBus): port 2 n is the low byte of WRn and RRn, 2 n + 1 the high byte; the low byte of WR0
     /// executes its command.
     std::uint8_t read_byte(std::uint32_t port);
     void write_byte(std::uint32_t port, std::uint8_t value);
 
     /// Pulses of an axis (0 X .. 3 U) as a position over time: + and - pulses since the start, whatever LP is set to.
-    sim::PositionFunction& pulses(int axis) { return outputs_[static_cast<std::size_t>(axis)]; }
+    sim::PositionFunction& pulses(int axis) { return positions_[static_cast<std::size_t>(axis)]; }
     /// Connects the encoder at xeca/xecb; before the kernel starts.
     void connect_encoder(int axis, sim::PositionFunction& counts);
     /// Disconnects the encoder and forces xeca, xecb to its present levels (`taken`), or releases them and reconnects
@@ -63,15 +67,15 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void take_encoder(int axis, bool taken);
     /// Pulses of both directions since the start.
     std::int64_t pulses_made(int axis);
-    std::int32_t lp(int axis) const;
-    std::int32_t ep(int axis) const;
+    std::int32_t lp(int axis) const { return values_.lp(axis); }
+    std::int32_t ep(int axis) const { return values_.ep(axis); }
 
     /// A value by its name, without side effects: a register of the map, or the name of a data command ("P", "LP") or a
     /// read command ("CV"). Counts are signed. `axis` matters for values that exist per axis. Empty if the name is
     /// unknown.
-    std::optional<std::int64_t> inspect(std::string_view name, int axis) const;
+    std::optional<std::int64_t> inspect(std::string_view name, int axis) const { return values_.inspect(name, axis); }
     /// Names that inspect accepts; `per_axis`: those that exist per axis, or the others.
-    static std::vector<std::string_view> inspected_names(bool per_axis);
+    static std::vector<std::string_view> inspected_names(bool per_axis) { return ChipValues::names(per_axis); }
 
     sim::DeviceId id() const { return id_; }
     sim::WireId interrupt_wire() const { return wires_.interrupt; }
@@ -85,8 +89,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     struct GeneralOutputs;  // general_outputs.hpp
 
   private:
-    struct Inspected;  // inspect.cpp
-
     /// Pulses of one axis.
     class Output final : public sim::PositionFunction {
       public:
@@ -124,31 +126,11 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void set_edge_listener(int axis, sim::EdgeListener* listener);
     void deliver_edges(int axis);
 
-    // wires.cpp: inputs and outputs
-    void update_outputs();
-    int pulse_level(int a, int which, bool pulse, int direction) const;
-    int output_level(int a, int output) const;
-    int drive_level(int a, std::int64_t tick) const;
-    void note_followers();
-    void show_wires(Instant now);
-
     // encoder.cpp: EP
     void encoder_crossed(int axis, Instant now);
     void encoder_lines(int axis, Instant now);
 
     void work_off(std::int64_t tick);
-
-    // machines.cpp: the present states of the map's state machines
-    int drive_state(int a) const;
-    int queue_state() const;
-    int pattern_state() const;
-    int stack_state() const;
-    int step_state() const;
-    int wire_state(int a, int minus) const;
-    int home_state(int a) const;
-    int filter_state(int a) const;
-    int clear_state(int a) const;
-    int action_state(int a) const;
 
     void skip_to(std::int64_t tick);
     void look_at_in_position();
@@ -161,9 +143,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void command(std::uint16_t value);
     void data_write(int code, int a);
     void data_read(int code, int a);
-    std::uint16_t main_status() const;
-    std::uint16_t status1(int a) const;
-    std::uint16_t status2(int a) const;
 
     // Only the MCX314As: extension.cpp
     bool extended_command(int code, unsigned axes);
@@ -198,7 +177,11 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     ExternalDrives external_{state_, inputs_, generators_, drives_};
     ChipHomeSearch homes_{state_,    kernel_,      id_,      requests_,   inputs_,
                           encoders_, comparators_, forward_, generators_, drives_};
-    std::array<Output, axes_of_chip> outputs_;
+    StatusRegisters status_{state_, inputs_, comparators_};
+    OutputPins outputs_{state_, kernel_, wires_, requests_, law_, status_};
+    MachineStates machines_{state_, kernel_};
+    ChipValues values_{state_, kernel_, law_, encoders_, drives_, status_, machines_};
+    std::array<Output, axes_of_chip> positions_;
     std::array<EncoderListener, axes_of_chip> encoder_listeners_;
 };
 

@@ -29,14 +29,14 @@ void Chip::GeneralOutputs::clear(Chip& chip) {
         word = static_cast<std::uint16_t>(word & ~high_outputs);
     }
     state.held.reported = 0;
-    chip.update_outputs();
+    chip.outputs_.set_general_outputs();
     chip.settle(now);
 }
 
 void Chip::GeneralOutputs::write(Chip& chip, const MaskedWrite& put) {
     put(chip.state_.wr4);
     if (const std::uint32_t low = keep_low(chip.state_.held.wr4, put, chip.state_.wr4); low != 0) report(chip, 4, low);
-    chip.update_outputs();
+    chip.outputs_.set_general_outputs();
 }
 
 void Chip::GeneralOutputs::write_modes(Chip& chip, int axis, const MaskedWrite& put) {

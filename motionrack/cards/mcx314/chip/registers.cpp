@@ -44,7 +44,7 @@ void Chip::reset() {
         encoders_.watch(a);
     }
     for (int a = 0; a < axes_of_chip; ++a) comparators_.compare(a);
-    update_outputs();
+    outputs_.set_general_outputs();
 }
 
 // ---- writing

@@ -1,17 +1,17 @@
-// The pins: relevant inputs are followed, outputs are computed on demand or for their listeners.
+// Levels of the output pins, computed on demand or for their listeners.
 //
 //   xpp   ____/~~\____/~~\____   two-pulse mode: + on xpp, - on xpm; one-pulse mode: pulses on xpp, direction on xpm
 //             |<>| half a period, but at most until the axis' next basic pulse
-#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/output_pins.hpp>
 
 namespace motionrack::mcx314 {
 
-void Chip::update_outputs() {
+void OutputPins::set_general_outputs() {
     for (int a = 0; a < axes_of_chip; ++a)
         for (int i = 0; i < 4; ++i) kernel_.set_wire(wires_.general_outputs[a][i], state_.wr4 >> (4 * a + i) & 1);
 }
 
-int Chip::pulse_level(int a, int which, bool pulse, int direction) const {
+int OutputPins::pulse_level(int a, int which, bool pulse, int direction) const {
     const Axis& axis = state_.axis[a];
     const bool one_pulse = wr2::PLSMD.test(axis.wr2), negative = wr2::PLSL.test(axis.wr2),
                high_is_plus = wr2::DIRL.test(axis.wr2);
@@ -21,37 +21,29 @@ int Chip::pulse_level(int a, int which, bool pulse, int direction) const {
 }
 
 /// nOUT4..7: bits of WR3, or the drive's status: CMP+, CMP-, ASND, DSND.
-int Chip::output_level(int a, int output) const {
+int OutputPins::output_level(int a, int output) const {
     static constexpr std::array<Field, 4> shown = {rr1::CMPP, rr1::CMPM, rr1::ASND, rr1::DSND};
     const Axis& axis = state_.axis[a];
-    if (wr3::OUTSL.test(axis.wr3)) return shown[output - 4].test(status1(a));
+    if (wr3::OUTSL.test(axis.wr3)) return shown[output - 4].test(status_.status1(a));
     return (axis.wr3 & wr3::OUT4.mask << (output - 4)) != 0;
 }
 
 /// nDRIVE: the axis drives, or the deviation counter clear pulse.
-int Chip::drive_level(int a, std::int64_t at) const {
+int OutputPins::drive_level(int a, std::int64_t at) const {
     const Extension& ext = state_.extension[a];
     return em::DCCE.test(ext.em7) ? (at < ext.clear_until) != em::DCCL.test(ext.em7) : state_.busy(a);
 }
 
-int Chip::level_at(int pin, Instant now) const {
+int OutputPins::level_at(int pin, std::int64_t at) const {
     const int a = (pin - ChipWires::output_pin) / 16, which = (pin - ChipWires::output_pin) % 16;
-    if (which == 2) return drive_level(a, tick_of(now));
+    if (which == 2) return drive_level(a, at);
     if (which >= 8) return output_level(a, which - 8);
-    const std::int64_t at = tick_of(now);
     const PulseMark mark = law_.mark_at(a, at);
     return pulse_level(a, which, mark.active(at), mark.direction);
 }
 
-void Chip::wanted_changed(int, bool, Instant now) {
-    if (!state_.begun) return;
-    catch_up(now);
-    note_followers();
-    settle(now);
-}
-
 /// Determines the axes with followed wires; every pulse of these is an event.
-void Chip::note_followers() {
+void OutputPins::note_followers() {
     state_.following = 0;
     for (int a = 0; a < axes_of_chip; ++a) {
         Axis& axis = state_.axis[a];
@@ -70,7 +62,7 @@ void Chip::note_followers() {
 }
 
 /// Sets the followed wires.
-void Chip::show_wires(Instant now) {
+void OutputPins::show(Instant now) {
     const std::int64_t at = tick_of(now);
     for (int a = 0; a < axes_of_chip; ++a) {
         Axis& axis = state_.axis[a];

@@ -1,6 +1,6 @@
 // Present state of each declared state machine (map.hpp), derived from the chip's working state.
 #include <iterator>
-#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/machine_states.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 
 namespace motionrack::mcx314 {
@@ -27,7 +27,7 @@ static_assert(std::size(home_places) == std::size(map::home_drives));
 
 }  // namespace
 
-int Chip::drive_state(int a) const {
+int MachineStates::drive_state(int a) const {
     const Axis& axis = state_.axis[a];
     const Generator& gen = state_.axis[bit(state_.chain, a) ? state_.master : a].gen;
     if (gen.drive != Drive::idle) {
@@ -38,52 +38,52 @@ int Chip::drive_state(int a) const {
     return state_.waits_for_position(a) ? place("drive", "in_position") : place("drive", "idle");
 }
 
-int Chip::queue_state() const {
+int MachineStates::queue_state() const {
     if (state_.chain == 0) return place("continuous interpolation", "idle");
     return state_.queued ? place("continuous interpolation", "queued") : place("continuous interpolation", "running");
 }
 
-int Chip::pattern_state() const {
+int MachineStates::pattern_state() const {
     if (state_.chain != 0 && state_.path.command.pattern() && state_.pattern.place < Pattern::length)
         return place("bit pattern", "running");
     return state_.pattern.place < Pattern::length ? place("bit pattern", "stopped") : place("bit pattern", "idle");
 }
 
-int Chip::stack_state() const {
+int MachineStates::stack_state() const {
     return state_.pattern.stacked;
 }
 
-int Chip::step_state() const {
+int MachineStates::step_state() const {
     if (state_.chain == 0 || !state_.by_steps(state_.master)) return place("single steps", "free");
     return state_.stepping ? place("single steps", "stepping") : place("single steps", "waiting");
 }
 
-int Chip::wire_state(int a, int minus) const {
+int MachineStates::wire_state(int a, int minus) const {
     static constexpr int by_low_ticks[] = {place("drive by wire", "high"), place("drive by wire", "falling"),
                                            place("drive by wire", "low")};
     const Axis& axis = state_.axis[a];
     return drives_by_wire(axis.wr3) ? by_low_ticks[axis.external_low[minus]] : place("drive by wire", "off");
 }
 
-int Chip::home_state(int a) const {
+int MachineStates::home_state(int a) const {
     for (int i = 0; i < static_cast<int>(std::size(map::home_drives)); ++i)
         if (map::home_drives[i].hmst == state_.extension[a].home.hmst) return home_places[i];
     return place("home search", "idle");
 }
 
 /// "differs" if any filtered input of the axis does.
-int Chip::filter_state(int a) const {
+int MachineStates::filter_state(int a) const {
     const Extension& ext = state_.extension[a];
     const bool differs = (ext.filtered & (ext.wires ^ state_.axis[a].levels)) != 0;
     return differs ? place("input filter", "differs") : place("input filter", "same");
 }
 
-int Chip::clear_state(int a) const {
+int MachineStates::clear_state(int a) const {
     const bool pulse = tick_of(kernel_.now()) < state_.extension[a].clear_until;
     return pulse ? place("deviation counter clear", "pulse") : place("deviation counter clear", "rest");
 }
 
-int Chip::action_state(int a) const {
+int MachineStates::action_state(int a) const {
     return bit(state_.acting, a) ? place("synchronous action", "due") : place("synchronous action", "waiting");
 }
 
