@@ -70,7 +70,7 @@ void Chip::work_off(std::int64_t to) {
     look_at_in_position();
     external_.execute_requests();
     homes_.look();
-    if (state_.acting != 0) act_together();
+    if (state_.acting != 0) actions_.act();
 }
 
 void Chip::look_at_in_position() {

@@ -16,6 +16,7 @@
 #include <motionrack/cards/mcx314/chip/chip_conditions.hpp>
 #include <motionrack/cards/mcx314/chip/chip_values.hpp>
 #include <motionrack/cards/mcx314/chip/chip_wires.hpp>
+#include <motionrack/cards/mcx314/chip/command_executor.hpp>
 #include <motionrack/cards/mcx314/chip/comparators.hpp>
 #include <motionrack/cards/mcx314/chip/drives.hpp>
 #include <motionrack/cards/mcx314/chip/edge_stream.hpp>
@@ -35,6 +36,7 @@
 #include <motionrack/cards/mcx314/chip/pulse_listeners.hpp>
 #include <motionrack/cards/mcx314/chip/state.hpp>
 #include <motionrack/cards/mcx314/chip/status_registers.hpp>
+#include <motionrack/cards/mcx314/chip/synchronous_actions.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/position_function.hpp>
 #include <motionrack/sim/register_device.hpp>
@@ -126,7 +128,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void set_edge_listener(int axis, sim::EdgeListener* listener);
     void deliver_edges(int axis);
 
-    // encoder.cpp: EP
     void encoder_crossed(int axis, Instant now);
     void encoder_lines(int axis, Instant now);
 
@@ -140,19 +141,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask);
     void write_mode(std::uint32_t offset, int a, const MaskedWrite& put);
     void clear_flags(std::uint16_t mask);
-    void command(std::uint16_t value);
-    void data_write(int code, int a);
-    void data_read(int code, int a);
-
-    // Only the MCX314As: extension.cpp
-    bool extended_command(int code, unsigned axes);
-    void extended_write(int code, int a);
-    void set_extension(int a);
-    void set_ring_end(int a, std::int32_t value);
-    static bool has_extended_command(int code);
-    // synchronous.cpp
-    void act_together();
-    void act_alone(int a);
 
     sim::Kernel& kernel_;
     sim::DeviceId id_;
@@ -177,6 +165,13 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     ExternalDrives external_{state_, inputs_, generators_, drives_};
     ChipHomeSearch homes_{state_,    kernel_,      id_,      requests_,   inputs_,
                           encoders_, comparators_, forward_, generators_, drives_};
+    CommandExecutor commands_{
+        state_,
+        options_,
+        kernel_,
+        id_,
+        {requests_, inputs_, filters_, conditions_, encoders_, comparators_, patterns_, generators_, drives_, homes_}};
+    SynchronousActions actions_{state_, requests_, encoders_, forward_, generators_, drives_, homes_, commands_};
     StatusRegisters status_{state_, inputs_, comparators_};
     OutputPins outputs_{state_, kernel_, wires_, requests_, law_, status_};
     MachineStates machines_{state_, kernel_};

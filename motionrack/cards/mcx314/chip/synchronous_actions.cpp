@@ -1,5 +1,5 @@
 // Synchronous actions of an MCX314As: a condition of one axis makes this and other axes act, in the same tick.
-#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/synchronous_actions.hpp>
 #include <utility>
 
 namespace motionrack::mcx314 {
@@ -34,7 +34,7 @@ unsigned acting_with(int a, const Extension& ext) {
 
 /// At the end of a tick or a write: executes the actions of the conditions so far. The consequences of these actions
 /// follow later.
-void Chip::act_together() {
+void SynchronousActions::act() {
     unsigned acting = 0;
     for_each_axis(std::exchange(state_.acting, 0u), [&](int a) { acting |= acting_with(a, state_.extension[a]); });
     for_each_axis(state_.working, [&](int a) { forward_.bring_up(a, state_.tick); });
@@ -46,14 +46,14 @@ void Chip::act_together() {
 }
 
 /// Executes the commands of SM7 as if the host had written them.
-void Chip::act_alone(int a) {
+void SynchronousActions::act_alone(int a) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];
     auto asked = [&ext](Field action) { return action.test(ext.sm7); };
     if (asked(sm::LPSAV)) ext.buffer = static_cast<std::uint32_t>(axis.lp);
     if (asked(sm::EPSAV)) ext.buffer = static_cast<std::uint32_t>(encoders_.position(axis, a));
     for (const Act& each : sets)
-        if (asked(each.action)) data_write(each.code, a);
+        if (asked(each.action)) commands_.data_write(each.code, a);
     if (asked(sm::OPSET) && axis.gen.drive == Drive::fixed) generators_.check_final(a);
     if (asked(sm::SSTOP)) drives_.ask_stop(1u << a, false);
     if (asked(sm::ISTOP)) drives_.ask_stop(1u << a, true);

@@ -1,20 +1,18 @@
-// Functions of the MCX314As only: its commands, rings, drive speed and deceleration, the clear pulse.
-#include <motionrack/cards/mcx314/chip/chip.hpp>
-#include <motionrack/cards/mcx314/chip/ramp.hpp>
+// Commands of the MCX314As only: its modes, rings, speeds of a home search and conditions.
+#include <motionrack/cards/mcx314/chip/command_executor.hpp>
+#include <motionrack/cards/mcx314/map.hpp>
 
 namespace motionrack::mcx314 {
 
-// ---- commands
-
-bool Chip::has_extended_command(int code) {
+bool CommandExecutor::has_extended(int code) {
     for (const CommandInfo& command : map::commands)
         if (command.variant == map::as_only && static_cast<int>(command.code) == code) return true;
     return false;
 }
 
 /// Returns false if the MCX314As does not know the command either.
-bool Chip::extended_command(int code, unsigned axes) {
-    if (!has_extended_command(code)) return false;
+bool CommandExecutor::execute_extended(int code, unsigned axes) {
+    if (!has_extended(code)) return false;
     if (code == cmd::READ_BR) {
         const std::uint32_t value = state_.extension[state_.first_selected()].buffer;
         if (axes == 0) return true;
@@ -22,11 +20,11 @@ bool Chip::extended_command(int code, unsigned axes) {
         state_.rr7 = static_cast<std::uint16_t>(value >> 16);
         return true;
     }
-    for_each_axis(axes, [&](int a) { extended_write(code, a); });
+    for_each_axis(axes, [&](int a) { write_extended(code, a); });
     return true;
 }
 
-void Chip::extended_write(int code, int a) {
+void CommandExecutor::write_extended(int code, int a) {
     Extension& ext = state_.extension[a];
     switch (code) {
         case cmd::L:
@@ -61,7 +59,7 @@ void Chip::extended_write(int code, int a) {
 }
 
 /// 60h.
-void Chip::set_extension(int a) {
+void CommandExecutor::set_extension(int a) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];
     const std::int32_t position = encoders_.position(axis, a);
@@ -76,7 +74,7 @@ void Chip::set_extension(int a) {
 }
 
 /// COMP+ of an axis in ring mode.
-void Chip::set_ring_end(int a, std::int32_t value) {
+void CommandExecutor::set_ring_end(int a, std::int32_t value) {
     Axis& axis = state_.axis[a];
     const std::int32_t position = encoders_.position(axis, a);
     axis.comp_plus = value;
