@@ -27,91 +27,13 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
 
 // ---- time
 
-void Chip::advance_to(std::int64_t to) {
-    work_to(to);
-    for_each_axis(state_.working, [&](int a) { forward_.bring_up(a, state_.tick); });
-}
-
-/// Executes the events up to tick `to`; generators without an event at the last of these ticks may stay behind.
-void Chip::work_to(std::int64_t to) {
-    while (state_.tick < to) {
-        if (state_.next_event > to) return skip_to(to);
-        work_off(state_.next_event);
-        reschedule();
-    }
-}
-
-/// Executes everything up to and including tick `to`, the next event: generators that only change their speed in closed
-/// form, the others by the rules. Generators without an event, and without a path that depends on them, stay behind.
-void Chip::work_off(std::int64_t to) {
-    state_.tick = to;
-    if (state_.next_sample <= to) filters_.sample(to);
-    for_each_axis(state_.working, [&](int a) {
-        Axis& axis = state_.axis[a];
-        const bool path = axis.gen.drive == Drive::path;
-        if (axis.gen.next_tick > to) {
-            if (path) forward_.bring_up(a, to);
-        } else if (axis.gen.walks) {
-            forward_.bring_along(a, to);
-        } else if (axis.gen.plain) {
-            skip_speed(axis, to - axis.gen.at - 1);
-            forward_.skip_phase(a, to - axis.gen.at);
-            axis.gen.at = to;
-            if (path) note_rates();
-            generators_.speed_step(a);
-        } else {
-            forward_.bring_up(a, to - 1);
-            if (path) note_rates();
-            axis.gen.at = to;
-            generators_.work(a);
-        }
-    });
-    if ((state_.in_place | state_.sampled | state_.homing | state_.acting) == 0) return;
-    look_at_in_position();
-    external_.execute_requests();
-    homes_.look();
-    if (state_.acting != 0) actions_.act();
-}
-
-void Chip::look_at_in_position() {
-    for_each_axis(state_.in_place, [&](int a) {
-        if (in_position(state_.axis[a])) state_.in_place &= ~(1u << a);
-    });
-}
-
-/// Advances to tick `to` without an event.
-void Chip::skip_to(std::int64_t to) {
-    for_each_axis(state_.working, [&](int a) { forward_.bring_up(a, to); });
-    if (state_.in_place != 0) look_at_in_position();
-    state_.tick = to;
-}
-
-/// Finds the tick of the next event.
-void Chip::reschedule() {
-    std::int64_t next = state_.next_sample;
-    for_each_axis(state_.working, [&](int a) {
-        const Generator& gen = state_.axis[a].gen;
-        if (gen.next_tick <= state_.tick || gen.full_tick || !gen.special_known) {
-            forward_.bring_up(a, state_.tick);
-            forward_.find_next_tick(a);
-        }
-        next = std::min(next, gen.next_tick);
-    });
-    for_each_axis(state_.following, [&](int a) {
-        const Axis& axis = state_.axis[a];
-        if (axis.pulses_wanted && axis.mark.active(state_.tick)) next = std::min(next, axis.mark.end());
-    });
-    state_.next_event = state_.sampled != 0 ? state_.tick + 1 : next;
-    requests_.found_next();
-}
-
 /// Publishes the changes of an event to the listeners, and schedules the next event in the kernel.
 void Chip::settle(Instant now) {
     if (state_.acting != 0) requests_.wake();
-    notify_listeners(now);
+    notifier_.notify(now);
     update_interrupt();
     if (state_.following != 0) outputs_.show(now);
-    if (requests_.stale()) reschedule();
+    if (requests_.stale()) events_.find_next();
     Instant next = state_.next_event > tick_of(never) ? never : Instant{state_.next_event * rules::tick_100ps};
     if (state_.crossed != 0) next = now + Duration{1};  // reports a range already left
     kernel_.schedule(id_, next);
@@ -119,7 +41,7 @@ void Chip::settle(Instant now) {
 
 void Chip::on_scheduled(Instant now) {
     if (!state_.begun) begin();
-    work_to(tick_of(now));
+    events_.work_to(tick_of(now));
     settle(now);
 }
 
@@ -143,20 +65,20 @@ void Chip::begin() {
 /// Brings the chip up to `now` before its state is accessed from outside.
 void Chip::catch_up(Instant now) {
     if (!state_.begun) begin();
-    advance_to(tick_of(now));
-    note_rates();
+    events_.advance_to(tick_of(now));
+    notifier_.note_rates();
     requests_.make_stale();
 }
 
 /// The same before an input changes: a change at the very instant of a tick belongs to that tick.
 void Chip::catch_up_before(Instant now) {
-    advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
-    note_rates();
+    events_.advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
+    notifier_.note_rates();
     requests_.make_stale();
 }
 
 void Chip::sync(Instant now) {
-    advance_to(tick_of(now));
+    events_.advance_to(tick_of(now));
     for (int a = 0; a < axes_of_chip; ++a)
         if (edges_.wanted(a)) edges_.flush(a);
 }
@@ -238,38 +160,8 @@ void Chip::update_interrupt() {
 
 // ---- position sources
 
-/// Updates the rates before an event: along an arc they drift between the changes that listeners receive.
-void Chip::note_rates() {
-    if (state_.chain == 0 || !state_.path.command.arc()) return;
-    for (int i = 0; i < 2; ++i) {
-        const int a = state_.path.command.axis[i];
-        if (listeners_.of_axis[a].size() > 0)
-            state_.axis[a].reported_rate = std::bit_cast<std::uint64_t>(law_.rate_of(a, Instant{0}));
-    }
-}
-
-void Chip::notify_listeners(Instant now) {
-    const unsigned changed = requests_.take_changed();
-    for_each_axis((changed | state_.crossed) & listeners_.heard, [&](int a) {
-        if (changed >> a & 1u) {
-            if (edges_.wanted(a)) edges_.flush(a);
-            if (listeners_.of_axis[a].size() > 0) {
-                const double rate = law_.rate_of(a, now);
-                const auto before = std::bit_cast<double>(
-                    std::exchange(state_.axis[a].reported_rate, std::bit_cast<std::uint64_t>(rate)));
-                listeners_.of_axis[a].notify_rate(before, rate, now);
-            }
-        }
-        Axis& axis = state_.axis[a];
-        if (!(state_.crossed >> a & 1u)) return;
-        state_.crossed &= ~(1u << a);
-        if (edges_.wanted(a)) edges_.flush(a);
-        listeners_.of_axis[a].notify_crossed(axis.watch, axis.count, now);
-    });
-}
-
 void Chip::set_edge_listener(int a, sim::EdgeListener* listener) {
-    advance_to(tick_of(kernel_.now()));
+    events_.advance_to(tick_of(kernel_.now()));
     edges_.set_listener(a, listener);
     requests_.forget_specials();
     requests_.make_stale();
@@ -279,7 +171,7 @@ void Chip::set_edge_listener(int a, sim::EdgeListener* listener) {
 
 void Chip::deliver_edges(int a) {
     if (!edges_.wanted(a)) return;
-    advance_to(tick_of(kernel_.now()));
+    events_.advance_to(tick_of(kernel_.now()));
     edges_.flush(a);
 }
 

@@ -21,6 +21,7 @@
 #include <motionrack/cards/mcx314/chip/drives.hpp>
 #include <motionrack/cards/mcx314/chip/edge_stream.hpp>
 #include <motionrack/cards/mcx314/chip/encoder_inputs.hpp>
+#include <motionrack/cards/mcx314/chip/event_executor.hpp>
 #include <motionrack/cards/mcx314/chip/event_requests.hpp>
 #include <motionrack/cards/mcx314/chip/external_drives.hpp>
 #include <motionrack/cards/mcx314/chip/fast_forward.hpp>
@@ -33,6 +34,7 @@
 #include <motionrack/cards/mcx314/chip/options.hpp>
 #include <motionrack/cards/mcx314/chip/output_pins.hpp>
 #include <motionrack/cards/mcx314/chip/pattern_stack.hpp>
+#include <motionrack/cards/mcx314/chip/position_notifier.hpp>
 #include <motionrack/cards/mcx314/chip/pulse_listeners.hpp>
 #include <motionrack/cards/mcx314/chip/state.hpp>
 #include <motionrack/cards/mcx314/chip/status_registers.hpp>
@@ -114,27 +116,17 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     };
 
     // chip.cpp: time, wires, listeners
-    void advance_to(std::int64_t tick);
-    void work_to(std::int64_t tick);
-    void reschedule();
     void settle(Instant now);
     void begin();
     void catch_up(Instant now);
     void catch_up_before(Instant now);
     void update_interrupt();
-    void note_rates();
-    void notify_listeners(Instant now);
     void watch(int axis, int slot, std::int64_t below, std::int64_t above);
     void set_edge_listener(int axis, sim::EdgeListener* listener);
     void deliver_edges(int axis);
 
     void encoder_crossed(int axis, Instant now);
     void encoder_lines(int axis, Instant now);
-
-    void work_off(std::int64_t tick);
-
-    void skip_to(std::int64_t tick);
-    void look_at_in_position();
 
     // registers.cpp
     void reset();
@@ -172,6 +164,8 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
         id_,
         {requests_, inputs_, filters_, conditions_, encoders_, comparators_, patterns_, generators_, drives_, homes_}};
     SynchronousActions actions_{state_, requests_, encoders_, forward_, generators_, drives_, homes_, commands_};
+    PositionNotifier notifier_{state_, requests_, law_, listeners_, edges_};
+    EventExecutor events_{state_, requests_, notifier_, forward_, generators_, filters_, external_, homes_, actions_};
     StatusRegisters status_{state_, inputs_, comparators_};
     OutputPins outputs_{state_, kernel_, wires_, requests_, law_, status_};
     MachineStates machines_{state_, kernel_};
