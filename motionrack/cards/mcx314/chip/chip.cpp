@@ -21,7 +21,7 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
         state_.axis[a].offset = options_.offset_after_reset;
         comparators_.compare(a);
     }
-    state_.next_event = state_.next_sample = far;
+    state_.next_event = state_.sampling.next = far;
     kernel_.schedule(id_, Instant{0});
 }
 
@@ -56,8 +56,8 @@ void Chip::begin() {
     state_.emergency_high = kernel_.level(wires_.emergency) != 0;
     kernel_.subscribe(wires_.step, id_, true);
     inputs_.hear_step_wire(kernel_.level(wires_.step));
-    state_.emergency_filter.wire = state_.emergency_high;
-    state_.step_filter.wire = state_.step_high;
+    state_.sampling.emergency.wire = state_.emergency_high;
+    state_.sampling.step.wire = state_.steps.high;
     outputs_.note_followers();
     requests_.make_stale();
 }

@@ -8,7 +8,7 @@ namespace motionrack::mcx314 {
 void CommandExecutor::execute(std::uint16_t value) {
     const unsigned code = value & 0xFFu;
     const unsigned axes = value >> 8 & 0xFu;
-    if (axes != 0) state_.selected = static_cast<std::uint16_t>(axes);
+    if (axes != 0) state_.bus.selected = static_cast<std::uint16_t>(axes);
     auto each = [axes](auto&& call) {
         for (int a = 0; a < axes_of_chip; ++a)
             if (axes >> a & 1u) call(a);
@@ -52,28 +52,28 @@ void CommandExecutor::execute(std::uint16_t value) {
 }
 
 void CommandExecutor::data_write(int code, int a) {
-    const std::uint32_t value = std::uint32_t{state_.wr7} << 16 | state_.wr6;
+    const std::uint32_t value = std::uint32_t{state_.bus.wr7} << 16 | state_.bus.wr6;
     Axis& axis = state_.axis[a];
     switch (code) {
         case cmd::R:
             axis.range = value & 0x00FF'FFFFu;
             break;
         case cmd::K:
-            axis.jerk = state_.wr6;
-            if (!extended_) axis.decel_jerk = state_.wr6;
+            axis.jerk = state_.bus.wr6;
+            if (!extended_) axis.decel_jerk = state_.bus.wr6;
             break;
         case cmd::A:
-            axis.accel = state_.wr6;
+            axis.accel = state_.bus.wr6;
             break;
         case cmd::D:
-            axis.decel = state_.wr6;
+            axis.decel = state_.bus.wr6;
             break;
         case cmd::SV:
-            axis.start_speed = state_.wr6;
+            axis.start_speed = state_.bus.wr6;
             generators_.set_drive_speed(a);
             break;
         case cmd::V:
-            generators_.set_drive_speed(a, state_.wr6);
+            generators_.set_drive_speed(a, state_.bus.wr6);
             break;
         case cmd::P:
             axis.pulses = extended_ ? value : value & 0x0FFF'FFFFu;
@@ -100,7 +100,7 @@ void CommandExecutor::data_write(int code, int a) {
             axis.comp_minus = static_cast<std::int32_t>(value);
             break;
         default:
-            axis.offset = state_.wr6;
+            axis.offset = state_.bus.wr6;
             break;
     }
     if (code == cmd::LP || code == cmd::EP || code == cmd::COMP_PLUS || code == cmd::COMP_MINUS) {
@@ -126,8 +126,8 @@ void CommandExecutor::data_read(int code, int a) {
             value = static_cast<std::uint32_t>(axis.gen.rate);
             break;
     }
-    state_.rr6 = static_cast<std::uint16_t>(value);
-    state_.rr7 = static_cast<std::uint16_t>(value >> 16);
+    state_.bus.rr6 = static_cast<std::uint16_t>(value);
+    state_.bus.rr7 = static_cast<std::uint16_t>(value >> 16);
 }
 
 }  // namespace motionrack::mcx314

@@ -16,8 +16,8 @@ bool CommandExecutor::execute_extended(int code, unsigned axes) {
     if (code == cmd::READ_BR) {
         const std::uint32_t value = state_.extension[state_.first_selected()].buffer;
         if (axes == 0) return true;
-        state_.rr6 = static_cast<std::uint16_t>(value);
-        state_.rr7 = static_cast<std::uint16_t>(value >> 16);
+        state_.bus.rr6 = static_cast<std::uint16_t>(value);
+        state_.bus.rr7 = static_cast<std::uint16_t>(value >> 16);
         return true;
     }
     for_each_axis(axes, [&](int a) { write_extended(code, a); });
@@ -28,13 +28,13 @@ void CommandExecutor::write_extended(int code, int a) {
     Extension& ext = state_.extension[a];
     switch (code) {
         case cmd::L:
-            state_.axis[a].decel_jerk = state_.wr6;
+            state_.axis[a].decel_jerk = state_.bus.wr6;
             break;
         case cmd::EM:
             set_extension(a);
             break;
         case cmd::HV:
-            ext.hv = state_.wr6;
+            ext.hv = state_.bus.wr6;
             generators_.set_drive_speed(a);
             break;
         case cmd::HOME:
@@ -45,8 +45,8 @@ void CommandExecutor::write_extended(int code, int a) {
             break;
         case cmd::SM:
             comparators_.compare(a);  // unsubscribed comparisons are not evaluated
-            ext.sm6 = state_.wr6;
-            ext.sm7 = state_.wr7;
+            ext.sm6 = state_.bus.wr6;
+            ext.sm7 = state_.bus.wr7;
             conditions_.hear_comparisons(a);
             inputs_.set_wants(a);
             encoders_.watch(a);
@@ -63,8 +63,8 @@ void CommandExecutor::set_extension(int a) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];
     const std::int32_t position = encoders_.position(axis, a);
-    ext.em6 = state_.wr6;
-    ext.em7 = state_.wr7;
+    ext.em6 = state_.bus.wr6;
+    ext.em7 = state_.bus.wr7;
     axis.ring = em::VRING.test(ext.em6);
     axis.lp = stepped(axis, axis.lp, 0);
     encoders_.set_position(a, position);

@@ -50,12 +50,12 @@ PathCommand Drives::captured(int code) const {
     PathCommand command;
     command.code = code;
     command.count = code == cmd::LINE3 || code == cmd::BP3 ? 3 : 2;
-    command.vector_speed = static_cast<std::int32_t>(wr5::LSPD.get(state_.wr5));
-    if (wr5::EXPLS.test(state_.wr5)) command.steps |= PathCommand::by_wire;
-    if (wr5::CMPLS.test(state_.wr5)) command.steps |= PathCommand::by_command;
+    command.vector_speed = static_cast<std::int32_t>(wr5::LSPD.get(state_.bus.wr5));
+    if (wr5::EXPLS.test(state_.bus.wr5)) command.steps |= PathCommand::by_wire;
+    if (wr5::CMPLS.test(state_.bus.wr5)) command.steps |= PathCommand::by_command;
     static constexpr std::array<Field, 3> axes = {wr5::AX1, wr5::AX2, wr5::AX3};
     for (int i = 0; i < 3; ++i) {
-        command.axis[i] = static_cast<std::int32_t>(axes[i].get(state_.wr5));
+        command.axis[i] = static_cast<std::int32_t>(axes[i].get(state_.bus.wr5));
         command.finish[i] = coordinate(state_.axis[command.axis[i]].pulses);
         if (i < 2) command.centre[i] = coordinate(state_.axis[command.axis[i]].centre);
     }
@@ -92,7 +92,7 @@ void Drives::path_command(int code) {
 void Drives::start_path(const PathCommand& command) {
     state_.chain = command.mask();
     state_.master = command.axis[0];
-    state_.queued = state_.stepping = false;
+    state_.queued = state_.steps.in_progress = false;
     state_.stepped = 1;
     for (int a = 0; a < axes_of_chip; ++a)
         if (state_.chain >> a & 1u) state_.axis[a].finished = state_.axis[a].causes = 0;

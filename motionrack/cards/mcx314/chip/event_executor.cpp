@@ -22,7 +22,7 @@ void EventExecutor::work_to(std::int64_t to) {
 /// form, the others by the rules. Generators without an event, and without a path that depends on them, stay behind.
 void EventExecutor::work_off(std::int64_t to) {
     state_.tick = to;
-    if (state_.next_sample <= to) filters_.sample(to);
+    if (state_.sampling.next <= to) filters_.sample(to);
     for_each_axis(state_.working, [&](int a) {
         Axis& axis = state_.axis[a];
         const bool path = axis.gen.drive == Drive::path;
@@ -65,7 +65,7 @@ void EventExecutor::skip_to(std::int64_t to) {
 
 /// Finds the tick of the next event.
 void EventExecutor::find_next() {
-    std::int64_t next = state_.next_sample;
+    std::int64_t next = state_.sampling.next;
     for_each_axis(state_.working, [&](int a) {
         const Generator& gen = state_.axis[a].gen;
         if (gen.next_tick <= state_.tick || gen.full_tick || !gen.special_known) {

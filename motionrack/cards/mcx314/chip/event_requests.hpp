@@ -16,7 +16,7 @@ class EventRequests {
     void wake() { sample_at(state_.tick + 1); }
     /// The inputs are sampled at `tick` at the latest.
     void sample_at(std::int64_t tick) {
-        state_.next_sample = std::min(state_.next_sample, tick);
+        state_.sampling.next = std::min(state_.sampling.next, tick);
         make_stale();
     }
     /// After a change of inputs, limits or commands, every generator executes its next working tick in full.

@@ -46,8 +46,8 @@ void ExternalDrives::execute_requests() {
         if (inputs_.turns_by_wire(a)) sample_wheel(a);
     });
     if (!(sampled & InputPins::step_wire)) return;
-    if (falls(state_.step_low, state_.step_high)) generators_.ask_step(PathCommand::by_wire);
-    if (state_.step_low == 1) state_.sampled |= InputPins::step_wire;
+    if (falls(state_.steps.low, state_.steps.high)) generators_.ask_step(PathCommand::by_wire);
+    if (state_.steps.low == 1) state_.sampled |= InputPins::step_wire;
 }
 
 void ExternalDrives::sample_drive(int a) {

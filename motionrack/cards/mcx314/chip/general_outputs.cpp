@@ -22,7 +22,7 @@ void Chip::GeneralOutputs::clear(Chip& chip) {
     const Instant now = chip.kernel_.now();
     chip.catch_up(now);
     State& state = chip.state_;
-    state.held.wr4 |= std::exchange(state.wr4, std::uint16_t{0});
+    state.held.wr4 |= std::exchange(state.bus.wr4, std::uint16_t{0});
     for (std::size_t a = 0; a < state.axis.size(); ++a) {
         std::uint16_t& word = state.axis[a].wr3;
         state.held.wr3[a] |= word & high_outputs;
@@ -34,8 +34,8 @@ void Chip::GeneralOutputs::clear(Chip& chip) {
 }
 
 void Chip::GeneralOutputs::write(Chip& chip, const MaskedWrite& put) {
-    put(chip.state_.wr4);
-    if (const std::uint32_t low = keep_low(chip.state_.held.wr4, put, chip.state_.wr4); low != 0) report(chip, 4, low);
+    put(chip.state_.bus.wr4);
+    if (const std::uint32_t low = keep_low(chip.state_.held.wr4, put, chip.state_.bus.wr4); low != 0) report(chip, 4, low);
     chip.outputs_.set_general_outputs();
 }
 

@@ -188,7 +188,7 @@ bool Generators::segment_end(int a) {
     gen.special_known = false;
     gen.full_tick = true;
     requests_.law_changed_of(a);
-    if (wr5::CIINT.test(state_.wr5)) state_.path_interrupt = true;
+    if (wr5::CIINT.test(state_.bus.wr5)) state_.path_interrupt = true;
     if (law_.path_finished()) return end(a), true;
     check_final(a);
     return false;
@@ -257,7 +257,7 @@ int Generators::step_pattern() {
 
 /// Continues with the next word of the bit pattern.
 void Generators::next_pattern_word() {
-    patterns_.next_word(state_.axis[state_.master].gen.n, wr5::BPINT.test(state_.wr5));
+    patterns_.next_word(state_.axis[state_.master].gen.n, wr5::BPINT.test(state_.bus.wr5));
     requests_.law_changed_of(state_.master);
 }
 
@@ -280,15 +280,15 @@ void Generators::look_ahead_in_pattern() {
 
 /// True if a step is in progress.
 bool Generators::ask_step(std::uint32_t by) {
-    if (state_.chain == 0 || state_.stepping || !(state_.path.command.steps & by)) return false;
-    state_.stepping = true;
+    if (state_.chain == 0 || state_.steps.in_progress || !(state_.path.command.steps & by)) return false;
+    state_.steps.in_progress = true;
     state_.axis[state_.master].gen.special_known = false;
     requests_.law_changed_of(state_.master);
     return true;
 }
 
 void Generators::end_step(int a) {
-    state_.stepping = false;
+    state_.steps.in_progress = false;
     state_.axis[a].gen.special_known = false;
     requests_.law_changed_of(a);
     if (state_.axis[a].gen.stopping) end(a);

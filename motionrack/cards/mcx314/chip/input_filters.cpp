@@ -43,8 +43,8 @@ void InputFilters::set(int a) {
         ext.since[pin] = -1;
     });
     ext.filtered = static_cast<std::uint16_t>(pins);
-    if (a == 0 && !emergency_is_filtered.test(ext.em6)) state_.emergency_high = state_.emergency_filter.wire != 0;
-    if (a == 0 && !step_is_filtered.test(ext.em6)) inputs_.hear_step_wire(static_cast<int>(state_.step_filter.wire));
+    if (a == 0 && !emergency_is_filtered.test(ext.em6)) state_.emergency_high = state_.sampling.emergency.wire != 0;
+    if (a == 0 && !step_is_filtered.test(ext.em6)) inputs_.hear_step_wire(static_cast<int>(state_.sampling.step.wire));
     inputs_.set_wants(a);
     ext.sampled = state_.axis[a].levels;
     inputs_.hear_external(16 * a + static_cast<int>(Pin::exp_plus));
@@ -55,11 +55,11 @@ void InputFilters::set(int a) {
 bool InputFilters::passes(int pin, int wire_level) {
     const unsigned chip_filters = state_.extension[0].em6;
     if (pin == ChipWires::emergency_pin) {
-        state_.emergency_filter.wire = wire_level != 0;
+        state_.sampling.emergency.wire = wire_level != 0;
         return !emergency_is_filtered.test(chip_filters);
     }
     if (pin == ChipWires::step_pin) {
-        state_.step_filter.wire = wire_level != 0;
+        state_.sampling.step.wire = wire_level != 0;
         return !step_is_filtered.test(chip_filters);
     }
     Extension& ext = state_.extension[pin / 16];
@@ -69,16 +69,16 @@ bool InputFilters::passes(int pin, int wire_level) {
 
 /// Applies the samples of tick `to` before the tick is executed.
 void InputFilters::sample(std::int64_t to) {
-    state_.next_sample = far;
-    bool changed = sample_chip_filter(state_.emergency_filter, emergency_is_filtered, state_.emergency_high, to);
+    state_.sampling.next = far;
+    bool changed = sample_chip_filter(state_.sampling.emergency, emergency_is_filtered, state_.emergency_high, to);
     if (changed) state_.emergency_high = !state_.emergency_high;
-    if (sample_chip_filter(state_.step_filter, step_is_filtered, state_.step_high, to))
-        inputs_.hear_step_wire(state_.step_high ? 0 : 1);
+    if (sample_chip_filter(state_.sampling.step, step_is_filtered, state_.steps.high, to))
+        inputs_.hear_step_wire(state_.steps.high ? 0 : 1);
     for (int a = 0; a < axes_of_chip; ++a) {
         if (sample_axis(a, to)) changed = true;
         sample_edges(a);
         if (const std::int64_t end = state_.extension[a].clear_until; end > to)
-            state_.next_sample = std::min(state_.next_sample, end);
+            state_.sampling.next = std::min(state_.sampling.next, end);
     }
     if (changed) forward_.work_in_full(to);
 }
@@ -93,7 +93,7 @@ bool InputFilters::sample_chip_filter(ChipFilter& filter, Field enable, bool see
     if (filter.since < 0) filter.since = to;
     const std::int64_t end = filter.since + delay_of(x);
     if (end > to) {
-        state_.next_sample = std::min(state_.next_sample, end);
+        state_.sampling.next = std::min(state_.sampling.next, end);
         return false;
     }
     filter.since = -1;
@@ -114,7 +114,7 @@ bool InputFilters::sample_axis(int a, std::int64_t to) {
         if (since < 0) since = to;
         const std::int64_t end = since + delay_of(ext);
         if (end > to) {
-            state_.next_sample = std::min(state_.next_sample, end);
+            state_.sampling.next = std::min(state_.sampling.next, end);
             return;
         }
         set_level(axis.levels, pin, bit(ext.wires, pin));

@@ -57,8 +57,8 @@ void InputPins::hear_external(int pin) {
 }
 
 void InputPins::hear_step_wire(int wire_level) {
-    state_.step_high = wire_level != 0;
-    if (!state_.step_high || state_.step_low != 0) state_.sampled |= step_wire;
+    state_.steps.high = wire_level != 0;
+    if (!state_.steps.high || state_.steps.low != 0) state_.sampled |= step_wire;
 }
 
 }  // namespace motionrack::mcx314

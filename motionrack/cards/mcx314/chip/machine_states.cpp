@@ -55,7 +55,7 @@ int MachineStates::stack_state() const {
 
 int MachineStates::step_state() const {
     if (state_.chain == 0 || !state_.by_steps(state_.master)) return place("single steps", "free");
-    return state_.stepping ? place("single steps", "stepping") : place("single steps", "waiting");
+    return state_.steps.in_progress ? place("single steps", "stepping") : place("single steps", "waiting");
 }
 
 int MachineStates::wire_state(int a, int minus) const {

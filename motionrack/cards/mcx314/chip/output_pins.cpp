@@ -8,7 +8,7 @@ namespace motionrack::mcx314 {
 
 void OutputPins::set_general_outputs() {
     for (int a = 0; a < axes_of_chip; ++a)
-        for (int i = 0; i < 4; ++i) kernel_.set_wire(wires_.general_outputs[a][i], state_.wr4 >> (4 * a + i) & 1);
+        for (int i = 0; i < 4; ++i) kernel_.set_wire(wires_.general_outputs[a][i], state_.bus.wr4 >> (4 * a + i) & 1);
 }
 
 int OutputPins::pulse_level(int a, int which, bool pulse, int direction) const {

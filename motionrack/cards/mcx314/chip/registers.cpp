@@ -9,32 +9,17 @@ void Chip::reset() {
     for (int a = 0; a < axes_of_chip; ++a)
         if (state_.driving(a)) requests_.law_changed(a);
     state_.chain = state_.working = state_.in_place = 0;
-    for (Axis& axis : state_.axis) {
-        Axis fresh;
-        fresh.levels = axis.levels;
-        fresh.count = axis.count;
-        fresh.made = axis.made;
-        fresh.watch = axis.watch;
-        fresh.pulses_wanted = axis.pulses_wanted;
-        fresh.outputs_wanted = axis.outputs_wanted;
-        fresh.drive_wanted = axis.drive_wanted;
-        fresh.encoder_lines = axis.encoder_lines;
-        fresh.shown = axis.shown;
-        fresh.mark = axis.mark;
-        fresh.reported_rate = axis.reported_rate;
-        fresh.offset = options_.offset_after_reset;
-        axis = fresh;
-    }
+    for (Axis& axis : state_.axis) axis.reset(options_.offset_after_reset);
     for (Extension& extension : state_.extension) extension = {};
-    state_.selected = 1;
-    state_.wr4 = state_.wr5 = state_.wr6 = state_.wr7 = state_.rr6 = state_.rr7 = 0;
+    state_.bus.reset();
     state_.held = {};
     state_.homing = state_.acting = 0;
-    state_.next_sample = far;
+    state_.sampling.reset();
     state_.emergency_high = kernel_.level(wires_.emergency) != 0;
-    state_.queued = state_.decel_enabled = state_.path_interrupt = state_.stepping = false;
+    state_.queued = state_.decel_enabled = state_.path_interrupt = false;
+    state_.steps.reset();
     patterns_.reset();
-    state_.wr0_high = state_.step_low = 0;
+    state_.wr0_high = 0;
     inputs_.hear_step_wire(kernel_.level(wires_.step));
     // An input may be connected to an output of the chip, which then reads the chip: its state is consistent here.
     for (int a = 0; a < axes_of_chip; ++a) {
@@ -72,15 +57,15 @@ void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t m
     else if (offset == reg::WR0)
         field("WR0", "RESET").test(value) ? reset() : commands_.execute(value);
     else if (offset >= reg::WR1 && offset <= reg::WR3)
-        for_each_axis(state_.selected, [&](int a) { write_mode(offset, a, put); });
+        for_each_axis(state_.bus.selected, [&](int a) { write_mode(offset, a, put); });
     else if (offset == reg::WR4)
         GeneralOutputs::write(*this, put);
     else if (offset == reg::WR5)
-        put(state_.wr5);
+        put(state_.bus.wr5);
     else if (offset == reg::WR6)
-        put(state_.wr6);
+        put(state_.bus.wr6);
     else if (offset == reg::WR7)
-        put(state_.wr7);
+        put(state_.bus.wr7);
     if (state_.homing != 0) requests_.wake();  // WR2 may have ended the wait for nINPOS
     if (state_.acting != 0) actions_.act();
     requests_.look_anew();

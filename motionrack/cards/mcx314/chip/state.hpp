@@ -172,6 +172,55 @@ struct Axis {
     sim::Listeners::Watches watch{};
     PathCommand held_path;
     Generator gen;
+
+    /// A reset of the chip, after which AO is `offset_after_reset`: the pins keep their levels, the counts since the
+    /// start and their listeners remain.
+    void reset(std::uint16_t offset_after_reset) {
+        Axis fresh;
+        fresh.levels = levels;
+        fresh.count = count;
+        fresh.made = made;
+        fresh.watch = watch;
+        fresh.pulses_wanted = pulses_wanted;
+        fresh.outputs_wanted = outputs_wanted;
+        fresh.drive_wanted = drive_wanted;
+        fresh.encoder_lines = encoder_lines;
+        fresh.shown = shown;
+        fresh.mark = mark;
+        fresh.reported_rate = reported_rate;
+        fresh.offset = offset_after_reset;
+        *this = fresh;
+    }
+};
+
+/// Registers of the bus that are not of one axis.
+struct BusRegisters {
+    std::uint16_t wr4 = 0, wr5 = 0, wr6 = 0, wr7 = 0, rr6 = 0, rr7 = 0;
+    std::uint16_t selected = 1;  ///< axes of WR1 .. WR3 and RR1 .. RR3
+
+    void reset() { *this = {}; }
+};
+
+/// Requests of single steps, by EXPLSN or 3Ah.
+struct StepRequests {
+    std::uint8_t low = 0;      ///< ticks, up to 2, since EXPLSN was seen High
+    bool high = true;          ///< EXPLSN as last received
+    bool in_progress = false;  ///< a single step is in progress
+
+    /// No step is in progress, and EXPLSN has not been seen Low.
+    void reset() {
+        low = 0;
+        in_progress = false;
+    }
+};
+
+/// When the inputs of an MCX314As are sampled, and the filters of the inputs of the whole chip.
+struct InputSampling {
+    std::int64_t next = 0;       ///< the next tick at which inputs are sampled
+    ChipFilter emergency, step;  ///< filters of EMGN, EXPLSN
+
+    /// No input is to be sampled; the filters keep the levels of their wires.
+    void reset() { next = far; }
 };
 
 /// Outputs that a stop of the machine cleared, and that the host has not written low since: bits of WR3 and WR4.
@@ -185,12 +234,9 @@ struct State {
     std::array<Axis, axes_of_chip> axis{};
     std::int64_t tick = 0;        ///< last executed tick
     std::int64_t next_event = 0;  ///< the next tick that must be executed in full
-    std::uint16_t wr4 = 0, wr5 = 0, wr6 = 0, wr7 = 0, rr6 = 0, rr7 = 0;
-    std::uint16_t selected = 1;
+    BusRegisters bus;
     std::uint8_t wr0_high = 0;  ///< as written by byte
-    std::uint8_t step_low = 0;  ///< ticks, up to 2, since EXPLSN was seen High
-    bool step_high = true;      ///< EXPLSN as last received
-    bool stepping = false;      ///< a single step is in progress
+    StepRequests steps;
     bool emergency_high = true;
     bool queued = false, decel_enabled = false, path_interrupt = false, interrupt = false;
     bool begun = false;       ///< the wires have been read since the start
@@ -210,10 +256,9 @@ struct State {
     HeldOutputs held;
 
     // MCX314As only.
-    std::int64_t next_sample = 0;              ///< the next tick at which inputs are sampled
-    ChipFilter emergency_filter, step_filter;  ///< filters of EMGN, EXPLSN
-    std::uint32_t homing = 0;                  ///< axes with a home search in progress
-    std::uint32_t acting = 0;                  ///< axes whose condition has occurred
+    InputSampling sampling;
+    std::uint32_t homing = 0;  ///< axes with a home search in progress
+    std::uint32_t acting = 0;  ///< axes whose condition has occurred
     std::array<Extension, axes_of_chip> extension{};
 
     bool driving(int a) const { return axis[a].gen.drive != Drive::idle || ((chain | homing) >> a & 1u) != 0; }
@@ -228,7 +273,7 @@ struct State {
     /// True if each basic pulse of generator `a` needs a request.
     bool by_steps(int a) const { return axis[a].gen.drive == Drive::path && path.command.steps != 0; }
     /// True if generator `a` waits for the request of a step.
-    bool halted(int a) const { return by_steps(a) && !stepping; }
+    bool halted(int a) const { return by_steps(a) && !steps.in_progress; }
 };
 
 static_assert(std::has_unique_object_representations_v<State>, "equal chips have equal bytes: no padding");
@@ -297,7 +342,7 @@ inline bool State::waits_for_position(int a) const {
 }
 inline int State::first_selected() const {
     int a = 0;
-    while (a < axes_of_chip - 1 && !(selected >> a & 1u)) ++a;
+    while (a < axes_of_chip - 1 && !(bus.selected >> a & 1u)) ++a;
     return a;
 }
 

@@ -19,9 +19,9 @@ std::uint16_t StatusRegisters::value(std::uint32_t offset) const {
         case reg::RR5:
             return static_cast<std::uint16_t>(inputs_.input_levels(2) | inputs_.input_levels(3) << 8);
         case reg::RR6:
-            return state_.rr6;
+            return state_.bus.rr6;
         case reg::RR7:
-            return state_.rr7;
+            return state_.bus.rr7;
         default:
             return 0;
     }
