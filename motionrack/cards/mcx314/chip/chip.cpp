@@ -1,7 +1,5 @@
 // The chip in the rack: time, wires, listeners and the encoders connected to EP.
 #include <motionrack/cards/mcx314/chip/chip.hpp>
-#include <motionrack/cards/mcx314/chip/ramp.hpp>
-#include <utility>
 
 namespace motionrack::mcx314 {
 
@@ -31,7 +29,7 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
 void Chip::settle(Instant now) {
     if (state_.acting != 0) requests_.wake();
     notifier_.notify(now);
-    update_interrupt();
+    interrupts_.update();
     if (state_.following != 0) outputs_.show(now);
     if (requests_.stale()) events_.find_next();
     Instant next = state_.next_event > tick_of(never) ? never : Instant{state_.next_event * rules::tick_100ps};
@@ -147,15 +145,6 @@ void Chip::wanted_changed(int, bool, Instant now) {
     catch_up(now);
     outputs_.note_followers();
     settle(now);
-}
-
-void Chip::update_interrupt() {
-    bool active = state_.path_interrupt || state_.pattern.interrupt;
-    for (const Axis& axis : state_.axis) active = active || axis.flags != 0;
-    if (active == state_.interrupt) return;
-    state_.interrupt = active;
-    kernel_.set_wire(wires_.interrupt, active ? 0 : 1);
-    if (active) kernel_.break_run();
 }
 
 // ---- position sources

@@ -8,6 +8,13 @@
 //
 // Ticks are not simulated one by one. Between two events (a speed step, a special pulse, an input) the state is in
 // closed form; the tick of an event is executed by the rules. Edges are generated only for listeners.
+//
+// Chip connects the owners of its state with the kernel and the bus:
+//
+//   CommandExecutor ─► Drives ◄─ ChipHomeSearch, ExternalDrives, SynchronousActions      what begins and stops drives
+//   EventExecutor ─► Generators (by the rules), FastForward (closed form) ─► Comparators, PatternStack, EdgeStream
+//   InputPins, InputFilters, EncoderInputs ─► state ─► Interrupts, OutputPins, PositionNotifier
+//   MotionLaw, StatusRegisters, MachineStates, ChipValues                           read the state and change nothing
 #pragma once
 
 #include <array>
@@ -29,6 +36,7 @@
 #include <motionrack/cards/mcx314/chip/home_search.hpp>
 #include <motionrack/cards/mcx314/chip/input_filters.hpp>
 #include <motionrack/cards/mcx314/chip/input_pins.hpp>
+#include <motionrack/cards/mcx314/chip/interrupts.hpp>
 #include <motionrack/cards/mcx314/chip/machine_states.hpp>
 #include <motionrack/cards/mcx314/chip/motion_law.hpp>
 #include <motionrack/cards/mcx314/chip/options.hpp>
@@ -120,7 +128,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void begin();
     void catch_up(Instant now);
     void catch_up_before(Instant now);
-    void update_interrupt();
     void watch(int axis, int slot, std::int64_t below, std::int64_t above);
     void set_edge_listener(int axis, sim::EdgeListener* listener);
     void deliver_edges(int axis);
@@ -132,7 +139,6 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     void reset();
     void write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask);
     void write_mode(std::uint32_t offset, int a, const MaskedWrite& put);
-    void clear_flags(std::uint16_t mask);
 
     sim::Kernel& kernel_;
     sim::DeviceId id_;
@@ -141,6 +147,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     ChipWires wires_;
     State state_{};
     EventRequests requests_{state_};
+    Interrupts interrupts_{state_, kernel_, wires_, requests_};
     EncoderInputs encoders_{state_, kernel_, wires_};
     ActionConditions conditions_{state_};
     Comparators comparators_{state_, encoders_, conditions_, options_};

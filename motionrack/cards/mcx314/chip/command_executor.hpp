@@ -33,7 +33,8 @@ class CommandExecutor {
         Drives& drives;
         ChipHomeSearch& homes;
     };
-    CommandExecutor(State& state, const ChipOptions& options, sim::Kernel& kernel, sim::DeviceId id, const CommandedParts& parts)
+    CommandExecutor(State& state, const ChipOptions& options, sim::Kernel& kernel, sim::DeviceId id,
+                    const CommandedParts& parts)
         : state_(state),
           extended_(options.extended()),
           kernel_(kernel),

@@ -1,4 +1,5 @@
-// What an event leaves to be done after it: ticks to be executed, the search for the next event, changed laws of motion.
+// What an event leaves to be done after it: ticks to be executed, the search for the next event, changed laws of
+// motion.
 #pragma once
 
 #include <algorithm>
