@@ -35,7 +35,8 @@ void Chip::GeneralOutputs::clear(Chip& chip) {
 
 void Chip::GeneralOutputs::write(Chip& chip, const MaskedWrite& put) {
     put(chip.state_.bus.wr4);
-    if (const std::uint32_t low = keep_low(chip.state_.held.wr4, put, chip.state_.bus.wr4); low != 0) report(chip, 4, low);
+    if (const std::uint32_t low = keep_low(chip.state_.held.wr4, put, chip.state_.bus.wr4); low != 0)
+        report(chip, 4, low);
     chip.outputs_.set_general_outputs();
 }
 
