@@ -145,25 +145,25 @@ void bind_settings(Rtc5Class& c) {
     c.def(
         "set_matrix",
         [](Rtc5& self, int head, std::array<double, 4> matrix, int at_once) {
-            order(self, [&](Engine& engine) { return engine.set_matrix(head, matrix, at_once); });
+            order(self, [&](Engine& engine) { return engine.heads().set_matrix(head, matrix, at_once); });
         },
         py::arg("head"), py::arg("matrix"), py::arg("at_once") = 1, "Matrix m11, m12, m21, m22 of a head, 1 to 4.");
     c.def(
         "set_offset",
         [](Rtc5& self, int head, double x, double y, int at_once) {
-            order(self, [&](Engine& engine) { return engine.set_offset(head, {x, y}, at_once); });
+            order(self, [&](Engine& engine) { return engine.heads().set_offset(head, {x, y}, at_once); });
         },
         py::arg("head"), py::arg("x"), py::arg("y"), py::arg("at_once") = 1, "Offset of a head, bits.");
     c.def(
         "set_angle",
         [](Rtc5& self, int head, double degrees, int at_once) {
-            order(self, [&](Engine& engine) { return engine.set_angle(head, degrees, at_once); });
+            order(self, [&](Engine& engine) { return engine.heads().set_angle(head, degrees, at_once); });
         },
         py::arg("head"), py::arg("degrees"), py::arg("at_once") = 1, "Rotation of a head, degrees.");
     c.def(
         "set_scale",
         [](Rtc5& self, int head, double scale, int at_once) {
-            order(self, [&](Engine& engine) { return engine.set_scale(head, scale, at_once); });
+            order(self, [&](Engine& engine) { return engine.heads().set_scale(head, scale, at_once); });
         },
         py::arg("head"), py::arg("scale"), py::arg("at_once") = 1, "Scale of a head.");
 }

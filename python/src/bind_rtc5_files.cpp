@@ -60,12 +60,12 @@ int load_correction_file(Rtc5& self, const Name& name, int number, int dim) {
 int load_fly_2d_table(Rtc5& self, const Name& name, std::uint32_t number) {
     order(self, [&](Engine& engine) -> Result<void> {
         if (!name) {
-            engine.load_fly_2d_table(nullptr);
+            engine.fly().load_table(nullptr);
             return {};
         }
         MOTIONRACK_TRY(const std::string text, read_whole_file(*name, fly_table_limit));
         MOTIONRACK_TRY(rtc5::FlyTable table, rtc5::FlyTable::read(text, number, *name));
-        engine.load_fly_2d_table(std::make_shared<const rtc5::FlyTable>(std::move(table)));
+        engine.fly().load_table(std::make_shared<const rtc5::FlyTable>(std::move(table)));
         return {};
     });
     return 0;

@@ -58,13 +58,13 @@ Result<void> load_correction(Card& card, const char* name, UINT number, UINT dim
 
 Result<void> load_fly_table(Card& card, const char* name, UINT number, UINT& answer) {
     if (name == nullptr) {
-        card.engine.load_fly_2d_table(nullptr);
+        card.engine.fly().load_table(nullptr);
     } else {
         answer = not_read;
         MOTIONRACK_TRY(const std::string text, bytes_of(name, max_table_bytes));
         answer = damaged;
         MOTIONRACK_TRY(rtc5::FlyTable table, rtc5::FlyTable::read(text, number, name));
-        card.engine.load_fly_2d_table(std::make_shared<const rtc5::FlyTable>(std::move(table)));
+        card.engine.fly().load_table(std::make_shared<const rtc5::FlyTable>(std::move(table)));
     }
     answer = loaded;
     return {};

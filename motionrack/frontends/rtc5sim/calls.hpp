@@ -133,15 +133,26 @@ void command(std::string_view who, UINT number, Call call) noexcept {
     });
 }
 
-/// A command that is one call of the card's engine.
-template <class Member, class... Parameters>
-void call(std::string_view who, UINT number, Member member, Parameters... parameters) noexcept {
+/// The part of the engine that a command belongs to, or the engine itself.
+template <class Part>
+Part& part_of(rtc5::Engine& engine) {
+    if constexpr (std::is_same_v<Part, rtc5::FlyCorrection>)
+        return engine.fly();
+    else if constexpr (std::is_same_v<Part, rtc5::HeadTransforms>)
+        return engine.heads();
+    else
+        return engine;
+}
+
+/// A command that is one call of the card's engine, or of a part of it.
+template <class Part, class Answer, class... Declared, class... Parameters>
+void call(std::string_view who, UINT number, Answer (Part::*member)(Declared...), Parameters... parameters) noexcept {
     command(who, number, [&](Card& card) -> Result<void> {
-        if constexpr (std::is_void_v<std::invoke_result_t<Member, rtc5::Engine&, Parameters...>>) {
-            std::invoke(member, card.engine, parameters...);
+        if constexpr (std::is_void_v<Answer>) {
+            std::invoke(member, part_of<Part>(card.engine), parameters...);
             return {};
         } else {
-            return std::invoke(member, card.engine, parameters...);
+            return std::invoke(member, part_of<Part>(card.engine), parameters...);
         }
     });
 }

@@ -145,19 +145,20 @@ void n_set_mark_speed_ctrl(UINT CardNo, double Speed) {
     });
 }
 void n_set_matrix(UINT CardNo, UINT HeadNo, double M11, double M12, double M21, double M22, UINT at_once) {
-    call(__func__, CardNo, &rtc5::Engine::set_matrix, small(HeadNo), std::array{M11, M12, M21, M22}, small(at_once));
+    call(__func__, CardNo, &rtc5::HeadTransforms::set_matrix, small(HeadNo), std::array{M11, M12, M21, M22},
+         small(at_once));
 }
 void n_set_offset(UINT CardNo, UINT HeadNo, long XOffset, long YOffset, UINT at_once) {
-    call(__func__, CardNo, &rtc5::Engine::set_offset, small(HeadNo), point(XOffset, YOffset), small(at_once));
+    call(__func__, CardNo, &rtc5::HeadTransforms::set_offset, small(HeadNo), point(XOffset, YOffset), small(at_once));
 }
 void n_set_angle(UINT CardNo, UINT HeadNo, double Angle, UINT at_once) {
-    call(__func__, CardNo, &rtc5::Engine::set_angle, small(HeadNo), Angle, small(at_once));
+    call(__func__, CardNo, &rtc5::HeadTransforms::set_angle, small(HeadNo), Angle, small(at_once));
 }
 void n_set_scale(UINT CardNo, UINT HeadNo, double Scale, UINT at_once) {
-    call(__func__, CardNo, &rtc5::Engine::set_scale, small(HeadNo), Scale, small(at_once));
+    call(__func__, CardNo, &rtc5::HeadTransforms::set_scale, small(HeadNo), Scale, small(at_once));
 }
 void n_set_hi(UINT CardNo, UINT HeadNo, double GalvoGainX, double GalvoGainY, long GalvoOffsetX, long GalvoOffsetY) {
-    call(__func__, CardNo, &rtc5::Engine::set_hi, small(HeadNo), rtc5::Point{GalvoGainX, GalvoGainY},
+    call(__func__, CardNo, &rtc5::HeadTransforms::set_hi, small(HeadNo), rtc5::Point{GalvoGainX, GalvoGainY},
          point(GalvoOffsetX, GalvoOffsetY));
 }
 void n_set_control_mode(UINT CardNo, UINT Mode) {

@@ -21,13 +21,13 @@ void n_simulate_encoder(UINT CardNo, UINT EncoderNo) {
     call(__func__, CardNo, &rtc5::Engine::simulate_encoder, small(EncoderNo));
 }
 void n_set_rot_center(UINT CardNo, long X, long Y) {
-    call(__func__, CardNo, &rtc5::Engine::set_rot_center, point(X, Y));
+    call(__func__, CardNo, &rtc5::FlyCorrection::set_rot_center, point(X, Y));
 }
 void n_init_fly_2d(UINT CardNo, long OffsetX, long OffsetY) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_TRY(const std::int32_t x, whole32("OffsetX", OffsetX));
         MOTIONRACK_TRY(const std::int32_t y, whole32("OffsetY", OffsetY));
-        card.engine.init_fly_2d(x, y);
+        card.engine.fly().zero_2d(x, y);
         return {};
     });
 }
@@ -63,22 +63,22 @@ long n_get_mcbsp(UINT CardNo) {
 }
 
 void n_set_mcbsp_in(UINT CardNo, UINT Mode, double Scale) {
-    call(__func__, CardNo, &rtc5::Engine::set_mcbsp_in, small(Mode), Scale);
+    call(__func__, CardNo, &rtc5::FlyCorrection::set_mcbsp_in, small(Mode), Scale);
 }
 void n_set_multi_mcbsp_in(UINT CardNo, UINT Ctrl, UINT P, UINT Mode) {
-    call(__func__, CardNo, &rtc5::Engine::set_multi_mcbsp_in, small(Ctrl), P, small(Mode));
+    call(__func__, CardNo, &rtc5::FlyCorrection::set_multi_mcbsp_in, small(Ctrl), P, small(Mode));
 }
 void n_set_mcbsp_x(UINT CardNo, double ScaleX) {
-    call(__func__, CardNo, &rtc5::Engine::set_mcbsp_x, ScaleX);
+    call(__func__, CardNo, &rtc5::FlyCorrection::set_mcbsp_x, ScaleX);
 }
 void n_set_mcbsp_y(UINT CardNo, double ScaleY) {
-    call(__func__, CardNo, &rtc5::Engine::set_mcbsp_y, ScaleY);
+    call(__func__, CardNo, &rtc5::FlyCorrection::set_mcbsp_y, ScaleY);
 }
 void n_set_mcbsp_rot(UINT CardNo, double Resolution) {
-    call(__func__, CardNo, &rtc5::Engine::set_mcbsp_rot, Resolution);
+    call(__func__, CardNo, &rtc5::FlyCorrection::set_mcbsp_rot, Resolution);
 }
 void n_set_mcbsp_matrix(UINT CardNo) {
-    call(__func__, CardNo, &rtc5::Engine::set_mcbsp_matrix);
+    call(__func__, CardNo, &rtc5::FlyCorrection::set_mcbsp_matrix);
 }
 void n_apply_mcbsp(UINT CardNo, UINT HeadNo, UINT at_once) {
     call(__func__, CardNo, &rtc5::Engine::apply_mcbsp, small(HeadNo), small(at_once));

@@ -137,7 +137,7 @@ constexpr ControlCommand commands[] = {
      {{{"HeadNo", 1, 3}, {"GalvoGainX", -16, 16, "", false}, {"GalvoGainY", -16, 16, "", false},
        {"GalvoOffsetX", min_field, max_field, "bits"}, {"GalvoOffsetY", min_field, max_field, "bits"}}},
      0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.set_hi(small(p[0]), {p[1], p[2]}, {p[3], p[4]})); },
+     [](Engine& e, Numbers p) { return done(e.heads().set_hi(small(p[0]), {p[1], p[2]}, {p[3], p[4]})); },
      "gain and offset behind the table of head 1 (A), 2 (B), or both (3)", by_header},
     {"write_io_port", {{up_to("Value", 65535)}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) {
@@ -158,7 +158,7 @@ constexpr ControlCommand commands[] = {
      },
      "counts that store_encoder kept: encoder 0 and 1 of Pos 0, then of Pos 1", by_header},
     {"set_rot_center", {{centre("X"), centre("Y")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.set_rot_center({p[0], p[1]})); },
+     [](Engine& e, Numbers p) { return done(e.fly().set_rot_center({p[0], p[1]})); },
      "centre of the rotary corrections", by_header},
     {"set_fly_tracking_error", {{up_to("TrackingErrorX", 65535, "times 10 us"),
       up_to("TrackingErrorY", 65535, "times 10 us")}}, 0, true, false, or_wrong,
@@ -170,7 +170,7 @@ constexpr ControlCommand commands[] = {
     {"init_fly_2d", {{{"OffsetX", min_32, max_32, "counts"}, {"OffsetY", min_32, max_32, "counts"}}}, 0,
      true, false, or_wrong,
      [](Engine& e, Numbers p) {
-         e.init_fly_2d(small(p[0]), small(p[1]));
+         e.fly().zero_2d(small(p[0]), small(p[1]));
          return Answered(ControlAnswer{});
      },
      "zeroes both encoders; these values are added to their counts in 2D corrections", manual_185},
@@ -209,22 +209,26 @@ constexpr ControlCommand commands[] = {
      [](Engine& e, Numbers p) { return answer({e.read_multi_mcbsp(small(p[0]))}); },
      "the last value of a type, after set_multi_mcbsp_in", rtc6_703},
     {"set_mcbsp_in", {{up_to("Mode", 3), scale("Scale", "bits/bit")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.set_mcbsp_in(small(p[0]), p[1])); },
+     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_in(small(p[0]), p[1])); },
      "X (1), Y (2) or both (3) move with the McBSP word; 0 is off. Words go to location 0, and in Mode 1 to 1, in Mode "
      "2 to 2; in Mode 3 X goes to 1, Y to 2, the word to 3", page_198},
     {"set_multi_mcbsp_in", {{up_to("Ctrl", 255), {"P", 0, 4294967295.0, "/16384"},
       {"Mode", min_32, max_32}}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.set_multi_mcbsp_in(small(p[0]), wide(p[1]), small(p[2]))); },
+     [](Engine& e, Numbers p) { return done(e.fly().set_multi_mcbsp_in(small(p[0]), wide(p[1]), small(p[2]))); },
      "McBSP words carry their type: x, y, z, laser power and parameters; they go to the locations 0 to 3 in turn",
      rtc6_703},
     {"set_mcbsp_x", {{scale("ScaleX", "bits/bit")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.set_mcbsp_x(p[0])); }, "online positioning of X; 0 is off", manual_166},
+     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_x(p[0])); }, "online positioning of X; 0 is off", manual_166},
     {"set_mcbsp_y", {{scale("ScaleY", "bits/bit")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.set_mcbsp_y(p[0])); }, "online positioning of Y; 0 is off", manual_166},
+     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_y(p[0])); }, "online positioning of Y; 0 is off", manual_166},
     {"set_mcbsp_rot", {{scale("Resolution", "bits a turn")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.set_mcbsp_rot(p[0])); },
+     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_rot(p[0])); },
      "online positioning of the angle; under 100 is off", manual_166},
-    {"set_mcbsp_matrix", {}, 0, true, false, or_wrong, plain<&Engine::set_mcbsp_matrix>,
+    {"set_mcbsp_matrix", {}, 0, true, false, or_wrong, 
+     [](Engine& e, Numbers) {
+         e.fly().set_mcbsp_matrix();
+         return Answered(ControlAnswer{});
+     },
      "online positioning of matrix coefficients", manual_166},
     {"apply_mcbsp", {{{"HeadNo", 1, 4}, up_to("at_once", 3)}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.apply_mcbsp(small(p[0]), small(p[1]))); },

@@ -42,6 +42,10 @@ class Engine {
     Engine(const Engine&) = delete;
     Engine& operator=(const Engine&) = delete;
 
+    // ---- parts with commands of their own
+    FlyCorrection& fly() { return fly_; }
+    HeadTransforms& heads() { return heads_; }
+
     // ---- lists
     /// list2 of -1: the remaining memory.
     Result<void> config_list(std::int64_t list1, std::int64_t list2) { return memory_.configure(list1, list2); }
@@ -86,15 +90,6 @@ class Engine {
     Result<void> set_delays(const Delays& delays) { return path_.set_delays(delays); }
     void set_jump_speed(double bits_ms) { path_.set_jump_speed(bits_ms); }
     void set_mark_speed(double bits_ms) { path_.set_mark_speed(bits_ms); }
-    /// at_once 0, 1, 3: with the next tick; 2: with the next jump. `head`: 1 A, 2 B, 3 both, 4 all, before fly.
-    Result<void> set_matrix(int head, std::array<double, 4> matrix, int at_once) {
-        return heads_.set_matrix(head, matrix, at_once);
-    }
-    Result<void> set_offset(int head, Point offset, int at_once) { return heads_.set_offset(head, offset, at_once); }
-    Result<void> set_angle(int head, double degrees, int at_once) { return heads_.set_angle(head, degrees, at_once); }
-    Result<void> set_scale(int head, double scale, int at_once) { return heads_.set_scale(head, scale, at_once); }
-    Result<void> set_hi(int head, Point gain, Point offset) { return heads_.set_hi(head, gain, offset); }
-    Result<void> set_rot_center(Point centre) { return fly_.set_rot_center(centre); }
     Result<void> simulate_encoder(int which) { return encoders_.simulate(which); }
     void set_tracking_error(std::uint16_t x, std::uint16_t y) { encoders_.set_tracking_error(x, y); }
     void set_control_mode(std::uint32_t mode) { state_.control_mode = mode; }
@@ -103,25 +98,8 @@ class Engine {
     Result<void> set_encoder_speed(int encoder, double counts_ms, double smooth) {
         return encoders_.watch_speed(encoder, counts_ms, smooth);
     }
-    void load_fly_2d_table(std::shared_ptr<const FlyTable> table) { fly_.load_table(std::move(table)); }
     /// Copies the data that State does not contain from the card whose state was copied: tables and recorded samples.
     void copy_beside_state(const Engine& other);
-    void init_fly_2d(std::int32_t offset_x, std::int32_t offset_y) { fly_.zero_2d(offset_x, offset_y); }
-    Result<void> set_mcbsp_in(int mode, double scale) { return fly_.set_mcbsp_in(mode, scale); }
-    /// Words carry their type; words of type 3 are the laser's power (see multi_power).
-    Result<void> set_multi_mcbsp_in(int port, std::int64_t factor, int mode) {
-        return fly_.set_multi_mcbsp_in(port, factor, mode);
-    }
-    /// Online positioning: scale 0 and a resolution below 100 disable it.
-    Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution) {
-        return fly_.set_mcbsp_online(scale_x, scale_y, resolution);
-    }
-    /// Sets one of the three; the others are kept.
-    Result<void> set_mcbsp_x(double scale) { return fly_.set_mcbsp_x(scale); }
-    Result<void> set_mcbsp_y(double scale) { return fly_.set_mcbsp_y(scale); }
-    Result<void> set_mcbsp_rot(double resolution) { return fly_.set_mcbsp_rot(resolution); }
-    /// Online positioning of matrix coefficients: words of (M * 2^24) * 4 + 2 i + j, |M| < 32.
-    void set_mcbsp_matrix() { fly_.set_mcbsp_matrix(); }
     Result<void> apply_mcbsp(int head, int at_once) { return heads_.apply(mcbsp_, head, at_once); }
     /// The present word, also copied to location 0. Errors: refused if none has been received.
     Result<std::int32_t> get_mcbsp() { return mcbsp_.store_now(); }

@@ -27,13 +27,17 @@ class FlyCorrection {
     Result<void> set_mcbsp_in(int mode, double scale);
     /// The same with parameters that are known to be valid.
     void correct_axes(int mode, double scale);
+    /// Words carry their type; words of type 3 are the laser's power (see multi_power).
     Result<void> set_multi_mcbsp_in(int port, std::int64_t factor, int mode);
+    /// Online positioning: scale 0 and a resolution below 100 disable it.
     Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution);
+    /// Sets one of the three; the others are kept.
     Result<void> set_mcbsp_x(double scale);
     Result<void> set_mcbsp_y(double scale);
     Result<void> set_mcbsp_rot(double resolution);
-    /// Online positioning: sets X (0), Y (1) or the angle (2); the others are kept.
+    /// The same by a number: X (0), Y (1) or the angle (2).
     void set_online(std::size_t which, double value);
+    /// Online positioning of matrix coefficients: words of (M * 2^24) * 4 + 2 i + j, |M| < 32.
     void set_mcbsp_matrix();
     Result<void> set_rot_center(Point centre);
     void turn_about(Point centre) { state_.rot_center = centre; }

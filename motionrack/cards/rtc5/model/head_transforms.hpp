@@ -19,6 +19,7 @@ class HeadTransforms {
     HeadTransforms(TransformsState& state, BlockBuffers& buffers) : state_(state), buffers_(buffers) {}
 
     // ---- commands
+    /// at_once 0, 1, 3: with the next tick; 2: with the next jump. `head`: 1 A, 2 B, 3 both, 4 all, before fly.
     Result<void> set_matrix(int head, std::array<double, 4> matrix, int at_once);
     Result<void> set_offset(int head, Point offset, int at_once);
     Result<void> set_angle(int head, double degrees, int at_once);

@@ -87,7 +87,7 @@ void control_lists(std::uint32_t what, Engine& c, std::uint32_t word, std::uint3
     if (what == 15) c.set_count(small & 1, static_cast<std::int32_t>(word << 16 | other));
     if (what == 16) c.auto_change();
     if (what == 17) word % 2 ? c.start_loop() : c.quit_loop();
-    if (what == 18) static_cast<void>(c.set_mcbsp_in(small, a));
+    if (what == 18) static_cast<void>(c.fly().set_mcbsp_in(small, a));
     if (what == 19) static_cast<void>(c.load_list(word, other % 120));
     if (what == 20) static_cast<void>(c.load_sub(word % 1200));
     if (what == 25) static_cast<void>(c.set_start_list(static_cast<std::uint32_t>(small), other % 120));
@@ -96,10 +96,10 @@ void control_lists(std::uint32_t what, Engine& c, std::uint32_t word, std::uint3
 void control_outputs(std::uint32_t what, Engine& c, std::uint32_t word, std::uint32_t other, double a, double b) {
     const int small = small_of(word);
     if (what == 4) static_cast<void>(c.goto_xy(a, b));
-    if (what == 5) static_cast<void>(c.set_matrix(small, {a, b, 1, 0}, small));
-    if (what == 6) static_cast<void>(c.set_offset(small, {a, b}, small));
-    if (what == 7) static_cast<void>(c.set_hi(small, {a, 1}, {b, 0}));
-    if (what == 8) static_cast<void>(c.set_rot_center({a, b}));
+    if (what == 5) static_cast<void>(c.heads().set_matrix(small, {a, b, 1, 0}, small));
+    if (what == 6) static_cast<void>(c.heads().set_offset(small, {a, b}, small));
+    if (what == 7) static_cast<void>(c.heads().set_hi(small, {a, 1}, {b, 0}));
+    if (what == 8) static_cast<void>(c.fly().set_rot_center({a, b}));
     if (what == 9) static_cast<void>(c.simulate_encoder(small));
     if (what == 10) c.set_tracking_error(static_cast<std::uint16_t>(word), 0);
     if (what == 21) word % 2 ? c.disable_laser() : c.enable_laser();
@@ -111,7 +111,7 @@ void control_outputs(std::uint32_t what, Engine& c, std::uint32_t word, std::uin
         static_cast<void>(c.get_value(word % 60));
         static_cast<void>(c.get_mcbsp());
     }
-    if (what == 24) static_cast<void>(word % 2 ? c.set_mcbsp_x(a) : c.set_mcbsp_rot(b));
+    if (what == 24) static_cast<void>(word % 2 ? c.fly().set_mcbsp_x(a) : c.fly().set_mcbsp_rot(b));
 }
 
 void control_something(Feed& feed, Engine* const (&cards)[2]) {
@@ -142,7 +142,7 @@ void files(Feed& feed, Engine* const (&cards)[2], Verdict& verdict) {
     for (std::uint32_t i = feed.below(4); i > 0; --i)
         text[feed.below(static_cast<std::uint32_t>(text.size()))] = static_cast<char>(feed.word());
     if (const auto table = FlyTable::read(text, 1, "fuzz.txt"))
-        for (Engine* c : cards) c->load_fly_2d_table(std::make_shared<const FlyTable>(*table));
+        for (Engine* c : cards) c->fly().load_table(std::make_shared<const FlyTable>(*table));
     ++verdict.files;
 }
 

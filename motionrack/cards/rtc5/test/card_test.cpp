@@ -105,7 +105,7 @@ TEST(Rtc5Card, AWordOnTheMcbspIsReadInTheNextTick) {
     sim::Kernel kernel;
     Card card(kernel, "scan", small);
     kernel.start();
-    ASSERT_TRUE(card.engine().set_mcbsp_in(1, 1));
+    ASSERT_TRUE(card.engine().fly().set_mcbsp_in(1, 1));
     kernel.force(kernel.find_wire("scan.mcbsp"), -70);
     kernel.run_until(microseconds(10));
     EXPECT_EQ(card.engine().output().a[0], -70);

@@ -131,7 +131,7 @@ TEST(Rtc5Fly, LocationZeroIsWrittenAfterFlyReturnAndAfterAReset) {
 
 TEST(Rtc5Fly, SetMcbspInUsesAllLocationsAndMultiWritesRoundRobin) {
     Rig rig;
-    ASSERT_TRUE(rig.card.set_mcbsp_in(3, 1));
+    ASSERT_TRUE(rig.card.fly().set_mcbsp_in(3, 1));
     for (int location = 0; location < 4; ++location)
         EXPECT_EQ(rig.card.read_mcbsp(location).error().message,
                   "read_mcbsp: no word was received over McBSP yet; let the sender send one first");
@@ -141,7 +141,7 @@ TEST(Rtc5Fly, SetMcbspInUsesAllLocationsAndMultiWritesRoundRobin) {
     EXPECT_EQ(rig.card.read_mcbsp(1), 3);
     EXPECT_EQ(rig.card.read_mcbsp(2), -2);
     EXPECT_EQ(rig.card.read_mcbsp(3), static_cast<std::int32_t>(0xFFFE0003));
-    ASSERT_TRUE(rig.card.set_multi_mcbsp_in(0, 8192, 1));
+    ASSERT_TRUE(rig.card.fly().set_multi_mcbsp_in(0, 8192, 1));
     rig.card.receive(1000u << 3 | 3);
     rig.card.receive(100u << 3 | 0);
     rig.card.receive(static_cast<std::uint32_t>(-50) << 3 | 1);
@@ -156,7 +156,7 @@ TEST(Rtc5Fly, SetMcbspInUsesAllLocationsAndMultiWritesRoundRobin) {
 
 TEST(Rtc5Fly, OnlinePositioningUsesLocations1And2AndMovesWhenApplied) {
     Rig rig;
-    ASSERT_TRUE(rig.card.set_mcbsp_online(2, 3, 0));
+    ASSERT_TRUE(rig.card.fly().set_mcbsp_online(2, 3, 0));
     rig.card.receive(0xFFFE0003);
     rig.run(1);
     EXPECT_EQ(rig.last_x(), 0);
@@ -166,7 +166,7 @@ TEST(Rtc5Fly, OnlinePositioningUsesLocations1And2AndMovesWhenApplied) {
     EXPECT_EQ(rig.last_x(), 6);
     EXPECT_EQ(rig.last_y(), -6);
     for (const int location : {0, 2, 3}) EXPECT_FALSE(rig.card.read_mcbsp(location)) << location;
-    ASSERT_TRUE(rig.card.set_mcbsp_online(1, 0, 3600));
+    ASSERT_TRUE(rig.card.fly().set_mcbsp_online(1, 0, 3600));
     rig.card.receive(1000);
     rig.card.receive(0x80000000u | 900);
     rig.run(1);
@@ -175,7 +175,7 @@ TEST(Rtc5Fly, OnlinePositioningUsesLocations1And2AndMovesWhenApplied) {
     ASSERT_TRUE(rig.card.apply_mcbsp(1, 1));
     EXPECT_DOUBLE_EQ(rig.card.state().transforms.heads[0].transform.angle_deg, 90);
     EXPECT_EQ(rig.card.state().transforms.heads[0].transform.offset.x, 1000);
-    rig.card.set_mcbsp_matrix();
+    rig.card.fly().set_mcbsp_matrix();
     rig.card.receive(static_cast<std::uint32_t>(-(1 << 23)) << 2 | 2);  // M21 = -0.5
     rig.run(1);
     ASSERT_TRUE(rig.card.apply_mcbsp(4, 1));
@@ -191,7 +191,7 @@ TEST(Rtc5Fly, TheRotaryCorrectionTurnsCounterClockwiseAboutItsCentre) {
     };
     for (const Case& c : {Case{300, -6.6987, 25, 0}, Case{900, -50, 50, 0b1001}, Case{-900, -50, -50, 0b0101}}) {
         Rig rig;
-        ASSERT_TRUE(rig.card.set_rot_center({std::floor(-50 * bits), 0}));
+        ASSERT_TRUE(rig.card.fly().set_rot_center({std::floor(-50 * bits), 0}));
         rig.put(Op::set_fly_rot, {3600});
         rig.put(Op::list_nop);
         rig.go();
@@ -358,7 +358,7 @@ TEST(Rtc5Fly, ACompensationTableIsReadCheckedAndAdded) {
     EXPECT_FALSE(FlyTable::read("[Fly2DTable1]\n0 0 0 0\n1 1 0 0\n", 1, "t.txt"));
     EXPECT_FALSE(FlyTable::read("[Fly2DTable1]\n0 0 0 99999999999\n", 1, "t.txt"));
     Rig rig;
-    rig.card.load_fly_2d_table(std::make_shared<const FlyTable>(*table));
+    rig.card.fly().load_table(std::make_shared<const FlyTable>(*table));
     rig.put(Op::set_fly_2d, {1, 1});
     rig.go();
     rig.card.set_count(0, 100);

@@ -162,9 +162,9 @@ TEST(Rtc5List, NonFiniteAndOutOfRangeNumbersAreRejectedWithTheirLocation) {
         << "coordinates are clipped";
     EXPECT_EQ(list_command(Op::set_mark_speed, {1})->p[0], 1.6);
     Engine card;
-    EXPECT_FALSE(card.set_matrix(1, {nan, 0, 0, 1}, 1));
-    EXPECT_FALSE(card.set_offset(5, {0, 0}, 1));
-    EXPECT_FALSE(card.set_rot_center({nan, 0}));
+    EXPECT_FALSE(card.heads().set_matrix(1, {nan, 0, 0, 1}, 1));
+    EXPECT_FALSE(card.heads().set_offset(5, {0, 0}, 1));
+    EXPECT_FALSE(card.fly().set_rot_center({nan, 0}));
     EXPECT_FALSE(card.load_correction(nullptr, 5));
     EXPECT_FALSE(card.select_cor_table(1, 9));
     EXPECT_FALSE(card.goto_xy(nan, 0));
@@ -173,7 +173,7 @@ TEST(Rtc5List, NonFiniteAndOutOfRangeNumbersAreRejectedWithTheirLocation) {
 
 TEST(Rtc5List, TheMatrixIsAppliedAfterTheCorrection) {
     Rig rig;
-    ASSERT_TRUE(rig.card.set_matrix(1, {0.5, -0.866, 0.866, 0.5}, 1));
+    ASSERT_TRUE(rig.card.heads().set_matrix(1, {0.5, -0.866, 0.866, 0.5}, 1));
     rig.put(Op::micro_vector_abs, {1000, 0, -1, -1});
     rig.go();
     EXPECT_EQ(rig.last_x(), 500);
@@ -182,7 +182,7 @@ TEST(Rtc5List, TheMatrixIsAppliedAfterTheCorrection) {
 
 TEST(Rtc5List, ATransformForTheNextJumpWaitsForIt) {
     Rig rig;
-    ASSERT_TRUE(rig.card.set_offset(3, {100, 0}, 2));
+    ASSERT_TRUE(rig.card.heads().set_offset(3, {100, 0}, 2));
     rig.put(Op::list_nop);
     rig.put(Op::jump_abs, {0, 0});
     rig.go();

@@ -199,14 +199,14 @@ class Pair {
         const int head = static_cast<int>(pick(4)) + 1, once = static_cast<int>(pick(9)) % 4;
         const double x = a.v[0] * 1e4, y = a.v[1] * 1e4, degrees = a.v[0] * 90, scale = 1 + a.v[0] / 2;
         if (a.kind == Act::matrix)
-            static_cast<void>(c.set_matrix(head, {a.v[0], a.v[1], a.v[2], a.v[3]}, once)),
+            static_cast<void>(c.heads().set_matrix(head, {a.v[0], a.v[1], a.v[2], a.v[3]}, once)),
                 t.set_matrix(head, once, a.v);
         if (a.kind == Act::offset)
-            static_cast<void>(c.set_offset(head, {x, y}, once)), t.set_offset(head, once, {x, y});
-        if (a.kind == Act::angle) static_cast<void>(c.set_angle(head, degrees, once)), t.set_angle(head, once, degrees);
-        if (a.kind == Act::scale) static_cast<void>(c.set_scale(head, scale, once)), t.set_scale(head, once, scale);
+            static_cast<void>(c.heads().set_offset(head, {x, y}, once)), t.set_offset(head, once, {x, y});
+        if (a.kind == Act::angle) static_cast<void>(c.heads().set_angle(head, degrees, once)), t.set_angle(head, once, degrees);
+        if (a.kind == Act::scale) static_cast<void>(c.heads().set_scale(head, scale, once)), t.set_scale(head, once, scale);
         if (a.kind == Act::hi) {
-            static_cast<void>(c.set_hi(3, {1 + a.v[0], 1}, {a.v[1] * 100, 0.5}));
+            static_cast<void>(c.heads().set_hi(3, {1 + a.v[0], 1}, {a.v[1] * 100, 0.5}));
             for (int h = 0; h < 2; ++h)
                 t.gain[h][0] = 1 + a.v[0], t.gain[h][1] = 1, t.gain_offset[h][0] = a.v[1] * 100,
                 t.gain_offset[h][1] = 0.5;
@@ -226,12 +226,12 @@ class Pair {
             t.min_jump = d.min_jump, t.jump_limit = d.jump_limit;
         }
         if (a.kind == Act::init_2d) {
-            c.init_fly_2d(static_cast<std::int32_t>(pick(500)), 7);
+            c.fly().zero_2d(static_cast<std::int32_t>(pick(500)), 7);
             for (auto& e : t.encoders) e.zero = e.travel;
             t.offset_2d = {static_cast<double>(pick(500)), 7};
         }
         if (a.kind == Act::reset_2d) {
-            c.load_fly_2d_table(a.b ? std::make_shared<const FlyTable>(fly_table()) : nullptr);
+            c.fly().load_table(a.b ? std::make_shared<const FlyTable>(fly_table()) : nullptr);
             t.table_2d = a.b ? &fly_table() : nullptr;
         }
     }
@@ -243,9 +243,9 @@ class Pair {
         const int at_once = static_cast<int>(a.b) * 2;
         if (a.kind == Act::word) c.receive(word), t.receive(word);
         if (a.kind == Act::mcbsp_in)
-            static_cast<void>(c.set_mcbsp_in(pick(4), a.v[0] * 3)), t.set_mcbsp_in(pick(4), a.v[0] * 3);
-        if (a.kind == Act::multi) static_cast<void>(c.set_multi_mcbsp_in(0, 0, 0)), t.set_multi();
-        if (a.kind == Act::online) static_cast<void>(c.set_mcbsp_online(x, y, turn)), t.set_online(x, y, turn);
+            static_cast<void>(c.fly().set_mcbsp_in(pick(4), a.v[0] * 3)), t.set_mcbsp_in(pick(4), a.v[0] * 3);
+        if (a.kind == Act::multi) static_cast<void>(c.fly().set_multi_mcbsp_in(0, 0, 0)), t.set_multi();
+        if (a.kind == Act::online) static_cast<void>(c.fly().set_mcbsp_online(x, y, turn)), t.set_online(x, y, turn);
         if (a.kind == Act::apply)
             static_cast<void>(c.apply_mcbsp(1 + pick(4), at_once)), t.apply_online(1 + pick(4), at_once);
         if (a.kind == Act::read_info) {

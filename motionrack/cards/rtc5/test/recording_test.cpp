@@ -50,8 +50,8 @@ TEST(Rtc5Recording, StagesOfTheHeadAreRecordedSeparately) {
     for (std::int32_t& x : shifted.x) x = std::min(x + 1000, 1'048'575);
     ASSERT_TRUE(rig.card.load_correction(table_of(shifted), 1));
     ASSERT_TRUE(rig.card.select_cor_table(1, 0));
-    ASSERT_TRUE(rig.card.set_offset(1, {30, 0}, 1));
-    ASSERT_TRUE(rig.card.set_hi(1, {2, 1}, {5, 0}));
+    ASSERT_TRUE(rig.card.heads().set_offset(1, {30, 0}, 1));
+    ASSERT_TRUE(rig.card.heads().set_hi(1, {2, 1}, {5, 0}));
     rig.put(Op::micro_vector_abs, {100, 7, 0, -1});
     rig.go();
     const std::pair<std::uint32_t, std::int32_t> expected[] = {

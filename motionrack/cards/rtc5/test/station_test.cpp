@@ -118,7 +118,7 @@ TEST(Rtc5Station, ARotaryTableIsFollowed) {
     parts::StationSettings settings;
     settings.track = {.rotary = true, .centre_mm = {-30, 0}, .profile = {{0, 60}}, .counts_per_unit = 10'000};
     Machine machine(settings);
-    ASSERT_TRUE(machine.card.set_rot_center({-30 * station_k, 0}));
+    ASSERT_TRUE(machine.card.fly().set_rot_center({-30 * station_k, 0}));
     EXPECT_LE(machine.square({*list_command(Op::set_fly_rot, {3'600'000})}).max_mm, 0.002);
 }
 

@@ -121,50 +121,50 @@ const Row control_rows[] = {
      }},
     {"set_matrix", [] { set_matrix(1, 0.5, -0.25, 0.125, 0.75, 1); },
      [](Engine& c) {
-         ASSERT_TRUE(c.set_matrix(1, {0.5, -0.25, 0.125, 0.75}, 1));
+         ASSERT_TRUE(c.heads().set_matrix(1, {0.5, -0.25, 0.125, 0.75}, 1));
      }},
     {"set_offset", [] { set_offset(4, 123, -456, 1); },
      [](Engine& c) {
-         ASSERT_TRUE(c.set_offset(4, {123, -456}, 1));
+         ASSERT_TRUE(c.heads().set_offset(4, {123, -456}, 1));
      }},
-    {"set_angle", [] { set_angle(1, 12.5, 2); }, [](Engine& c) { ASSERT_TRUE(c.set_angle(1, 12.5, 2)); }},
-    {"set_scale", [] { set_scale(3, 0.25, 0); }, [](Engine& c) { ASSERT_TRUE(c.set_scale(3, 0.25, 0)); }},
+    {"set_angle", [] { set_angle(1, 12.5, 2); }, [](Engine& c) { ASSERT_TRUE(c.heads().set_angle(1, 12.5, 2)); }},
+    {"set_scale", [] { set_scale(3, 0.25, 0); }, [](Engine& c) { ASSERT_TRUE(c.heads().set_scale(3, 0.25, 0)); }},
     {"set_hi", [] { set_hi(1, 0.5, 2, 30, -40); },
      [](Engine& c) {
-         ASSERT_TRUE(c.set_hi(1, {0.5, 2}, {30, -40}));
+         ASSERT_TRUE(c.heads().set_hi(1, {0.5, 2}, {30, -40}));
      }},
     {"write_io_port", [] { write_io_port(77); }, [](Engine& c) { c.mutable_state().io = 77; }},
     {"simulate_encoder", [] { simulate_encoder(2); }, [](Engine& c) { ASSERT_TRUE(c.simulate_encoder(2)); }},
     {"set_rot_center", [] { set_rot_center(9000, -8000); },
      [](Engine& c) {
-         ASSERT_TRUE(c.set_rot_center({9000, -8000}));
+         ASSERT_TRUE(c.fly().set_rot_center({9000, -8000}));
      }},
     {"set_fly_tracking_error", [] { set_fly_tracking_error(15, 7); }, [](Engine& c) { c.set_tracking_error(15, 7); }},
-    {"init_fly_2d", [] { init_fly_2d(400, -500); }, [](Engine& c) { c.init_fly_2d(400, -500); }},
+    {"init_fly_2d", [] { init_fly_2d(400, -500); }, [](Engine& c) { c.fly().zero_2d(400, -500); }},
     {"set_encoder_speed_ctrl", [] { set_encoder_speed_ctrl(2, 500, 0.5); },
      [](Engine& c) { ASSERT_TRUE(c.set_encoder_speed(2, 500, 0.5)); }},
     {"set_control_mode", [] { set_control_mode(512); }, [](Engine& c) { c.set_control_mode(512); }},
-    {"set_mcbsp_in", [] { set_mcbsp_in(1, 2.5); }, [](Engine& c) { ASSERT_TRUE(c.set_mcbsp_in(1, 2.5)); }},
+    {"set_mcbsp_in", [] { set_mcbsp_in(1, 2.5); }, [](Engine& c) { ASSERT_TRUE(c.fly().set_mcbsp_in(1, 2.5)); }},
     {"set_multi_mcbsp_in", [] { set_multi_mcbsp_in(1, 2, 0); },
-     [](Engine& c) { ASSERT_TRUE(c.set_multi_mcbsp_in(1, 2, 0)); }},
+     [](Engine& c) { ASSERT_TRUE(c.fly().set_multi_mcbsp_in(1, 2, 0)); }},
     {"set_mcbsp_x, set_mcbsp_y, apply_mcbsp",
      [] { set_mcbsp_x(2), set_mcbsp_y(3), rtc5sim_receive(1, 0x00050007), rtc5sim_advance_us(20), apply_mcbsp(1, 1); },
      [](Engine& c) {
-         ASSERT_TRUE(c.set_mcbsp_online(2, 3, 0));
+         ASSERT_TRUE(c.fly().set_mcbsp_online(2, 3, 0));
          c.receive(0x00050007), c.run_until(c.tick() + 2);
          ASSERT_TRUE(c.apply_mcbsp(1, 1));
      }},
     {"set_mcbsp_rot",
      [] { set_mcbsp_rot(3600), rtc5sim_receive(1, 0x80000384), rtc5sim_advance_us(20), apply_mcbsp(1, 1); },
      [](Engine& c) {
-         ASSERT_TRUE(c.set_mcbsp_online(0, 0, 3600));
+         ASSERT_TRUE(c.fly().set_mcbsp_online(0, 0, 3600));
          c.receive(0x80000384), c.run_until(c.tick() + 2);
          ASSERT_TRUE(c.apply_mcbsp(1, 1));
      }},
     {"set_mcbsp_matrix",
      [] { set_mcbsp_matrix(), rtc5sim_receive(1, 0x02000001), rtc5sim_advance_us(20), apply_mcbsp(1, 1); },
      [](Engine& c) {
-         c.set_mcbsp_matrix();
+         c.fly().set_mcbsp_matrix();
          c.receive(0x02000001), c.run_until(c.tick() + 2);
          ASSERT_TRUE(c.apply_mcbsp(1, 1));
      }},
