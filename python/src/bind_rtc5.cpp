@@ -201,7 +201,7 @@ void bind_answers(Rtc5Class& c) {
     c.def(
         "get_value",
         [](Rtc5& self, std::uint32_t signal) {
-            return ask(self, [&](Engine& engine) { return engine.get_value(signal); });
+            return ask(self, [&](Engine& engine) { return engine.recorder().value(signal); });
         },
         py::arg("signal"), "A signal by its number, 0 to 255.");
     c.def(

@@ -81,7 +81,7 @@ std::string table_note(Rtc5& self, int number) {
 
 py::array_t<std::int32_t> get_waveform(Rtc5& self, int channel, std::int64_t count) {
     const std::vector<std::int32_t> samples = order(self, [&](Engine& engine) -> Result<std::vector<std::int32_t>> {
-        const rtc5::Recording& r = engine.recording();
+        const rtc5::Recording& r = engine.recorder().recording();
         if (r.count == 0)
             return fail(ErrorKind::refused, "get_waveform: nothing was recorded (set_trigger); nothing was given");
         MOTIONRACK_CHECK(rtc5::check_parameter("get_waveform", "Channel", channel, 1, static_cast<double>(r.channels)));
@@ -89,7 +89,7 @@ py::array_t<std::int32_t> get_waveform(Rtc5& self, int channel, std::int64_t cou
                                                static_cast<double>(r.count)));
         std::vector<std::int32_t> out(static_cast<std::size_t>(count));
         for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] = engine.recorded(channel - 1, static_cast<std::int64_t>(i));
+            out[i] = engine.recorder().recorded(channel - 1, static_cast<std::int64_t>(i));
         return out;
     });
     return py::array_t<std::int32_t>(static_cast<py::ssize_t>(samples.size()), samples.data());
@@ -166,7 +166,7 @@ void bind_rtc5_files(Rtc5Class& c) {
     c.def(
         "set_mcbsp_out_ptr",
         [](Rtc5& self, const std::vector<std::uint32_t>& signals) {
-            order(self, [&](Engine& engine) { return engine.set_mcbsp_out(signals); });
+            order(self, [&](Engine& engine) { return engine.recorder().send(signals); });
         },
         py::arg("SignalPtr"),
         "Sends these signals of get_value in turn, one word in 10 us; at most 8, none: sending ends. Refused: a signal "

@@ -217,14 +217,14 @@ void n_set_extstartpos(UINT CardNo, UINT Pos) {
 long n_read_mcbsp(UINT CardNo, UINT No) {
     return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> {
         MOTIONRACK_CHECK(check_range("No", No, 0, 3));
-        return as(ErrorKind::stopped, card.engine.read_mcbsp(small(No)));
+        return as(ErrorKind::stopped, card.engine.mcbsp().read(small(No)));
     });
 }
 
 long n_read_multi_mcbsp(UINT CardNo, UINT No) {
     return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> {
         MOTIONRACK_CHECK(check_range("No", No, 0, 7));
-        return card.engine.read_multi_mcbsp(small(No));
+        return card.engine.mcbsp().typed(small(No));
     });
 }
 
@@ -250,7 +250,7 @@ UINT n_set_mcbsp_freq(UINT CardNo, UINT Freq) {
 }
 
 void n_set_mcbsp_out(UINT CardNo, UINT Signal1, UINT Signal2) {
-    call(__func__, CardNo, &rtc5::Engine::set_mcbsp_out, std::array<std::uint32_t, 2>{Signal1, Signal2});
+    call(__func__, CardNo, &rtc5::SignalRecorder::send, std::array<std::uint32_t, 2>{Signal1, Signal2});
 }
 
 void n_set_mcbsp_out_ptr(UINT CardNo, UINT Number, ULONG_PTR SignalPtr) {
@@ -259,7 +259,7 @@ void n_set_mcbsp_out_ptr(UINT CardNo, UINT Number, ULONG_PTR SignalPtr) {
         // NOLINTNEXTLINE(performance-no-int-to-ptr): the command takes an address as a number
         const auto* const signals = reinterpret_cast<const std::uint32_t*>(SignalPtr);
         if (Number > 0) MOTIONRACK_CHECK(check_pointer(signals, "SignalPtr"));
-        return card.engine.set_mcbsp_out({signals, Number});
+        return card.engine.recorder().send({signals, Number});
     });
 }
 
@@ -267,7 +267,7 @@ void n_set_mcbsp_out_ptr(UINT CardNo, UINT Number, ULONG_PTR SignalPtr) {
 
 void n_measurement_status(UINT CardNo, UINT* Busy, UINT* Pos) {
     ask_two(__func__, CardNo, Busy, Pos, [&](Card& card) {
-        const rtc5::Recording& r = card.engine.recording();
+        const rtc5::Recording& r = card.engine.recorder().recording();
         *Busy = r.period != 0;
         *Pos = static_cast<UINT>(r.count) - 1;  // 2^32 - 1: nothing recorded
     });
@@ -275,14 +275,14 @@ void n_measurement_status(UINT CardNo, UINT* Busy, UINT* Pos) {
 
 void n_get_waveform(UINT CardNo, UINT Channel, UINT Number, ULONG_PTR Ptr) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
-        const rtc5::Recording& r = card.engine.recording();
+        const rtc5::Recording& r = card.engine.recorder().recording();
         if (r.count == 0) return fail(ErrorKind::refused, "nothing was recorded (set_trigger); nothing was given");
         MOTIONRACK_CHECK(check_range("Channel", Channel, 1, static_cast<UINT>(r.channels)));
         MOTIONRACK_CHECK(check_range("Number", Number, 1, static_cast<UINT>(r.count)));
         // NOLINTNEXTLINE(performance-no-int-to-ptr): the command takes an address as a number
         auto* const to = reinterpret_cast<std::int32_t*>(Ptr);
         MOTIONRACK_CHECK(check_pointer(to, "Ptr"));
-        for (UINT i = 0; i < Number; ++i) to[i] = card.engine.recorded(Channel - 1, i);
+        for (UINT i = 0; i < Number; ++i) to[i] = card.engine.recorder().recorded(Channel - 1, i);
         return {};
     });
 }

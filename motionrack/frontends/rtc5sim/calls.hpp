@@ -140,6 +140,8 @@ Part& part_of(rtc5::Engine& engine) {
         return engine.fly();
     else if constexpr (std::is_same_v<Part, rtc5::HeadTransforms>)
         return engine.heads();
+    else if constexpr (std::is_same_v<Part, rtc5::SignalRecorder>)
+        return engine.recorder();
     else
         return engine;
 }

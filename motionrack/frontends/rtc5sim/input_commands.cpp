@@ -59,7 +59,7 @@ UINT n_get_startstop_info(UINT CardNo) {
 
 long n_get_mcbsp(UINT CardNo) {
     return question(__func__, CardNo, 0L,
-                    [](Card& card) -> Result<long> { return as(ErrorKind::stopped, card.engine.get_mcbsp()); });
+                    [](Card& card) -> Result<long> { return as(ErrorKind::stopped, card.engine.mcbsp().store_now()); });
 }
 
 void n_set_mcbsp_in(UINT CardNo, UINT Mode, double Scale) {
@@ -87,10 +87,11 @@ void n_apply_mcbsp(UINT CardNo, UINT HeadNo, UINT at_once) {
 // ---- Signals and recording
 
 long n_get_value(UINT CardNo, UINT Signal) {
-    return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> { return card.engine.get_value(Signal); });
+    return question(__func__, CardNo, 0L,
+                    [&](Card& card) -> Result<long> { return card.engine.recorder().value(Signal); });
 }
 void n_stop_trigger(UINT CardNo) {
-    call(__func__, CardNo, &rtc5::Engine::stop_trigger);
+    call(__func__, CardNo, &rtc5::SignalRecorder::stop);
 }
 
 // ---- Laser signals

@@ -116,7 +116,7 @@ int rtc5sim_encoder_count(UINT CardNo, UINT Encoder, int32_t count) {
 
 int rtc5sim_receive(UINT CardNo, uint32_t word) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {
-        card.engine.receive(word);
+        card.engine.mcbsp().receive(word);
         return {};
     });
 }
@@ -149,7 +149,7 @@ int rtc5sim_output(UINT CardNo, int32_t* x, int32_t* y, int* laser) {
 int rtc5sim_sent(UINT CardNo, int32_t* word) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(word, "The address of the word"));
-        *word = card.engine.mcbsp_sent();
+        *word = card.engine.recorder().sent();
         return {};
     });
 }

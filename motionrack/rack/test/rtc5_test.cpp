@@ -127,9 +127,9 @@ TEST(Rtc5InARack, ACopyContinuesIdenticallyWithItsTablesAndRecordings) {
     EXPECT_EQ(copy->state_hash(), bench.session->state_hash());
     EXPECT_NE(*copy->wire("c1.xout"), 0);
     const rtc5::Engine& ended = rtc5_card_of(copy->rack(), "c1")->engine();
-    ASSERT_GT(ended.recording().count, 40);
-    for (std::int64_t i = 0; i < ended.recording().count; ++i)
-        EXPECT_EQ(ended.recorded(0, i), bench.engine().recorded(0, i)) << i;
+    ASSERT_GT(ended.recorder().recording().count, 40);
+    for (std::int64_t i = 0; i < ended.recorder().recording().count; ++i)
+        EXPECT_EQ(ended.recorder().recorded(0, i), bench.engine().recorder().recorded(0, i)) << i;
 }
 
 TEST(Rtc5InARack, ItsOutputsAreRecordedTickByTick) {

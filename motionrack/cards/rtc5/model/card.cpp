@@ -123,7 +123,7 @@ void Card::on_wire(int pin, int level, Instant now) {
             break;
         case mcbsp:
         case mcbsp_frame:
-            engine_.receive(static_cast<std::uint32_t>(kernel_.level(wire(mcbsp))));
+            engine_.mcbsp().receive(static_cast<std::uint32_t>(kernel_.level(wire(mcbsp))));
             break;
         default:
             break;

@@ -198,15 +198,15 @@ constexpr ControlCommand commands[] = {
     {"set_mcbsp_freq", {{{"Freq", 1, 50'000'000, "Hz"}}}, 1, true, false, or_wrong,
      [](Engine&, Numbers p) { return answer({wide(p[0])}); },
      "returns Freq without effect: the frame on the wire is not simulated", by_header},
-    {"get_mcbsp", {}, 1, true, true, or_rejected, [](Engine& e, Numbers) { return one(e.get_mcbsp()); },
+    {"get_mcbsp", {}, 1, true, true, or_rejected, [](Engine& e, Numbers) { return one(e.mcbsp().store_now()); },
      "the present word, signed, which goes to memory location 0 too; refused before the first word", by_header},
     {"read_mcbsp", {{up_to("No", 3)}}, 1, true, true, or_rejected,
-     [](Engine& e, Numbers p) { return one(e.read_mcbsp(small(p[0]))); },
+     [](Engine& e, Numbers p) { return one(e.mcbsp().read(small(p[0]))); },
      "memory location No; refused while it is empty, with the command that fills it. Location 0 is filled "
      "from set_fly_x_pos (or _y_pos, _rot_pos, set_mcbsp_in) on. Of two axes X is the low half of the word and Y the "
      "high one, each of 16 bits with its sign. A scale is K / i, i = (end - start) / distance in bits/mm", page_198},
     {"read_multi_mcbsp", {{up_to("No", 7)}}, 1, true, true, or_wrong,
-     [](Engine& e, Numbers p) { return answer({e.read_multi_mcbsp(small(p[0]))}); },
+     [](Engine& e, Numbers p) { return answer({e.mcbsp().typed(small(p[0]))}); },
      "the last value of a type, after set_multi_mcbsp_in", rtc6_703},
     {"set_mcbsp_in", {{up_to("Mode", 3), scale("Scale", "bits/bit")}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_in(small(p[0]), p[1])); },
@@ -218,13 +218,15 @@ constexpr ControlCommand commands[] = {
      "McBSP words carry their type: x, y, z, laser power and parameters; they go to the locations 0 to 3 in turn",
      rtc6_703},
     {"set_mcbsp_x", {{scale("ScaleX", "bits/bit")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_x(p[0])); }, "online positioning of X; 0 is off", manual_166},
+     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_x(p[0])); },
+     "online positioning of X; 0 is off", manual_166},
     {"set_mcbsp_y", {{scale("ScaleY", "bits/bit")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_y(p[0])); }, "online positioning of Y; 0 is off", manual_166},
+     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_y(p[0])); },
+     "online positioning of Y; 0 is off", manual_166},
     {"set_mcbsp_rot", {{scale("Resolution", "bits a turn")}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_rot(p[0])); },
      "online positioning of the angle; under 100 is off", manual_166},
-    {"set_mcbsp_matrix", {}, 0, true, false, or_wrong, 
+    {"set_mcbsp_matrix", {}, 0, true, false, or_wrong,
      [](Engine& e, Numbers) {
          e.fly().set_mcbsp_matrix();
          return Answered(ControlAnswer{});
@@ -234,13 +236,20 @@ constexpr ControlCommand commands[] = {
      [](Engine& e, Numbers p) { return done(e.apply_mcbsp(small(p[0]), small(p[1]))); },
      "applies the online positioning to a head; at_once 2: with the next jump", manual_166},
     {"set_mcbsp_out", {{up_to("Signal1", 255), up_to("Signal2", 255)}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.set_mcbsp_out(std::array{word(p[0]), word(p[1])})); },
+     [](Engine& e, Numbers p) { return done(e.recorder().send(std::array{word(p[0]), word(p[1])})); },
      "sends two signals of get_value in turn, one word in 10 us", by_header},
 
     {"measurement_status", {}, 2, true, true, or_wrong,
-     [](Engine& e, Numbers) { return answer({e.recording().period != 0 ? 1 : 0, e.recording().count - 1}); },
+     [](Engine& e, Numbers) {
+         const Recording& r = e.recorder().recording();
+         return answer({r.period != 0 ? 1 : 0, r.count - 1});
+     },
      "(Busy, Pos): whether set_trigger records; Pos + 1 samples are there, none: -1", by_header},
-    {"stop_trigger", {}, 0, true, false, or_wrong, plain<&Engine::stop_trigger>,
+    {"stop_trigger", {}, 0, true, false, or_wrong,
+     [](Engine& e, Numbers) {
+         e.recorder().stop();
+         return Answered(ControlAnswer{});
+     },
      "ends a recording; its samples stay", by_header},
 
     {"set_laser_mode", {{{"Mode"}}}, 0, true, false, or_wrong, taken, changes_nothing, by_header},

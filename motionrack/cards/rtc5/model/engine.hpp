@@ -45,6 +45,10 @@ class Engine {
     // ---- parts with commands of their own
     FlyCorrection& fly() { return fly_; }
     HeadTransforms& heads() { return heads_; }
+    McBspReceiver& mcbsp() { return mcbsp_; }
+    const McBspReceiver& mcbsp() const { return mcbsp_; }
+    SignalRecorder& recorder() { return recorder_; }
+    const SignalRecorder& recorder() const { return recorder_; }
 
     // ---- lists
     /// list2 of -1: the remaining memory.
@@ -101,21 +105,14 @@ class Engine {
     /// Copies the data that State does not contain from the card whose state was copied: tables and recorded samples.
     void copy_beside_state(const Engine& other);
     Result<void> apply_mcbsp(int head, int at_once) { return heads_.apply(mcbsp_, head, at_once); }
-    /// The present word, also copied to location 0. Errors: refused if none has been received.
-    Result<std::int32_t> get_mcbsp() { return mcbsp_.store_now(); }
-    /// Signals that are sent from the next tick on, one per tick, in turn; none: sending ends. At most 8.
-    Result<void> set_mcbsp_out(std::span<const std::uint32_t> signals) { return recorder_.send(signals); }
     /// Disabling switches the laser off and blocks it until it is enabled again.
     void enable_laser() { laser_.enable(); }
     void disable_laser() { laser_.disable(); }
-    /// Ends a recording; its samples are kept.
-    void stop_trigger() { recorder_.stop(); }
 
     // ---- external inputs
     void external_start() { starts_.trigger(); }
     void external_stop() { stop(startstop_bit("EXTERNAL_STOP")); }
     void set_count(int encoder, std::int32_t counts) { encoders_.set_count(encoder, counts); }
-    void receive(std::uint32_t word) { mcbsp_.receive(word); }
     /// Records a tick in which both lines of an encoder changed.
     void encoder_sequence_error(int encoder);
     /// Sets the source of inputs; nullptr: set_count and receive.
@@ -139,26 +136,15 @@ class Engine {
     std::uint32_t list_status() const { return memory_.status(); }
     std::int64_t list_position() const { return list_.position(); }
     std::int32_t encoder(int number) const { return encoders_.count(static_cast<std::size_t>(number)); }
-    Result<std::int32_t> read_mcbsp(int location) const { return mcbsp_.read(location); }
-    std::int32_t read_multi_mcbsp(int type) const { return mcbsp_.typed(type); }
     /// Reads and clears by the rules of RULES.md.
     std::uint32_t get_marking_info() { return flags_.take_marking_info(); }
     /// Both counts of store_encoder, `pos` 0 or 1.
     std::array<std::int32_t, 2> read_encoder(int pos) const { return encoders_.stored(pos); }
-    /// Value that set_multi_mcbsp_in puts on the port: that of type 3 (mode 0), or factor * value / 16384 (mode 1).
-    std::int64_t multi_power() const { return mcbsp_.power(); }
     std::uint32_t get_startstop_info();
     /// Correction table 1 .. 4; nullptr: 1:1.
     const Table* table(std::int64_t number) const { return heads_.table(number); }
     /// The same without clearing.
     std::uint32_t startstop_info() const;
-    /// Value of a signal in the last tick.
-    Result<std::int32_t> get_value(std::uint32_t signal) const { return recorder_.value(signal); }
-    /// The word sent in the last tick; 0 while sending is off.
-    std::int32_t mcbsp_sent() const { return recorder_.sent(); }
-    const Recording& recording() const { return recorder_.recording(); }
-    /// Sample `i` of `channel` (0 ..) of the recording.
-    std::int32_t recorded(std::int64_t channel, std::int64_t i) const { return recorder_.recorded(channel, i); }
     /// Counts/ms after the filters; 0 while not watched.
     double encoder_speed() const { return encoders_.speed(); }
     /// x, y of head A in the last tick.

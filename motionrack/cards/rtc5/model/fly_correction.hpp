@@ -27,7 +27,7 @@ class FlyCorrection {
     Result<void> set_mcbsp_in(int mode, double scale);
     /// The same with parameters that are known to be valid.
     void correct_axes(int mode, double scale);
-    /// Words carry their type; words of type 3 are the laser's power (see multi_power).
+    /// Words carry their type; words of type 3 are the laser's power (see McBspReceiver::power).
     Result<void> set_multi_mcbsp_in(int port, std::int64_t factor, int mode);
     /// Online positioning: scale 0 and a resolution below 100 disable it.
     Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution);

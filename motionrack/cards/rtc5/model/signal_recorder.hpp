@@ -37,7 +37,8 @@ class SignalRecorder {
 
     /// Value of a signal in the last tick.
     Result<std::int32_t> value(std::uint32_t signal) const;
-    /// set_mcbsp_out
+    /// set_mcbsp_out: signals that are sent from the next tick on, one per tick, in turn; none: sending ends. At
+    /// most 8.
     Result<void> send(std::span<const std::uint32_t> signals);
     /// The word sent in the last tick; 0 while sending is off.
     std::int32_t sent() const;

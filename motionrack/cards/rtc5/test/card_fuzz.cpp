@@ -83,7 +83,7 @@ void control_lists(std::uint32_t what, Engine& c, std::uint32_t word, std::uint3
     if (what == 11) c.set_control_mode(word);
     if (what == 12) static_cast<void>(c.set_ext_start_delay(static_cast<std::int32_t>(word) - 30000, small));
     if (what == 13) c.external_start();
-    if (what == 14) c.receive(word << 16 | other);
+    if (what == 14) c.mcbsp().receive(word << 16 | other);
     if (what == 15) c.set_count(small & 1, static_cast<std::int32_t>(word << 16 | other));
     if (what == 16) c.auto_change();
     if (what == 17) word % 2 ? c.start_loop() : c.quit_loop();
@@ -104,12 +104,12 @@ void control_outputs(std::uint32_t what, Engine& c, std::uint32_t word, std::uin
     if (what == 10) c.set_tracking_error(static_cast<std::uint16_t>(word), 0);
     if (what == 21) word % 2 ? c.disable_laser() : c.enable_laser();
     if (what == 22) {
-        static_cast<void>(c.set_mcbsp_out(std::array<std::uint32_t, 2>{word % 48, other % 48}));
-        static_cast<void>(c.mcbsp_sent());
+        static_cast<void>(c.recorder().send(std::array<std::uint32_t, 2>{word % 48, other % 48}));
+        static_cast<void>(c.recorder().sent());
     }
     if (what == 23) {
-        static_cast<void>(c.get_value(word % 60));
-        static_cast<void>(c.get_mcbsp());
+        static_cast<void>(c.recorder().value(word % 60));
+        static_cast<void>(c.mcbsp().store_now());
     }
     if (what == 24) static_cast<void>(word % 2 ? c.fly().set_mcbsp_x(a) : c.fly().set_mcbsp_rot(b));
 }

@@ -109,7 +109,7 @@ TEST(Rtc5Card, AWordOnTheMcbspIsReadInTheNextTick) {
     kernel.force(kernel.find_wire("scan.mcbsp"), -70);
     kernel.run_until(microseconds(10));
     EXPECT_EQ(card.engine().output().a[0], -70);
-    EXPECT_EQ(card.engine().read_mcbsp(1), -70);
+    EXPECT_EQ(card.engine().mcbsp().read(1), -70);
 }
 
 TEST(Rtc5Card, StartAndStopLinesWorkAndALostStartIsReported) {

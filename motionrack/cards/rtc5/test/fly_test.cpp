@@ -68,10 +68,10 @@ TEST(Rtc5Fly, AMcBspWordIsA32BitPositionForOneAxis) {
         Rig rig;
         rig.put(Op::set_fly_x_pos, {5.184});
         rig.put(Op::list_nop);
-        rig.card.receive(word);
+        rig.card.mcbsp().receive(word);
         rig.go();
         EXPECT_EQ(rig.last_x(), x);
-        EXPECT_EQ(rig.card.read_mcbsp(0), static_cast<std::int32_t>(word));
+        EXPECT_EQ(rig.card.mcbsp().read(0), static_cast<std::int32_t>(word));
     }
 }
 
@@ -86,7 +86,7 @@ TEST(Rtc5Fly, AMcBspWordIsTwo16BitPositionsForTwoAxes) {
         rig.put(Op::set_fly_x_pos, {51.84});
         rig.put(Op::set_fly_y_pos, {51.84});
         rig.put(Op::list_nop);
-        rig.card.receive(c.word);
+        rig.card.mcbsp().receive(c.word);
         rig.go();
         EXPECT_DOUBLE_EQ(rig.card.output().corrected.x, c.x);
         EXPECT_DOUBLE_EQ(rig.card.output().corrected.y, c.y);
@@ -96,21 +96,21 @@ TEST(Rtc5Fly, AMcBspWordIsTwo16BitPositionsForTwoAxes) {
 TEST(Rtc5Fly, TwoReadingsOfTheMcBspGiveTheScale) {
     Rig rig;
     rig.put(Op::set_fly_x_pos, {1});
-    rig.card.receive(1000);
+    rig.card.mcbsp().receive(1000);
     rig.go();
-    const std::int32_t before = rig.card.read_mcbsp(0).value();
-    rig.card.receive(51'000);
+    const std::int32_t before = rig.card.mcbsp().read(0).value();
+    rig.card.mcbsp().receive(51'000);
     rig.run(1);
-    const double increment = (rig.card.read_mcbsp(0).value() - before) / 50.0;
+    const double increment = (rig.card.mcbsp().read(0).value() - before) / 50.0;
     EXPECT_DOUBLE_EQ(increment, 1000);
     EXPECT_DOUBLE_EQ(fly_k / increment, 5.184);
 }
 
 TEST(Rtc5Fly, LocationZeroIsWrittenAfterFlyReturnAndAfterAReset) {
     Rig rig;
-    rig.card.receive(5);
+    rig.card.mcbsp().receive(5);
     rig.run(1);
-    const auto unread = rig.card.read_mcbsp(0);
+    const auto unread = rig.card.mcbsp().read(0);
     ASSERT_FALSE(unread);
     EXPECT_EQ(unread.error().message,
               "read_mcbsp: location 0 is empty; first use "
@@ -119,13 +119,13 @@ TEST(Rtc5Fly, LocationZeroIsWrittenAfterFlyReturnAndAfterAReset) {
     rig.put(Op::set_fly_x_pos, {1});
     rig.put(Op::fly_return, {0, 0});
     rig.go();
-    rig.card.receive(77);
+    rig.card.mcbsp().receive(77);
     rig.run(1);
-    EXPECT_EQ(rig.card.read_mcbsp(0), 77);
+    EXPECT_EQ(rig.card.mcbsp().read(0), 77);
     rig.card.load_program_file();
-    rig.card.receive(78);
+    rig.card.mcbsp().receive(78);
     rig.run(1);
-    EXPECT_EQ(rig.card.read_mcbsp(0), 78);
+    EXPECT_EQ(rig.card.mcbsp().read(0), 78);
     EXPECT_FALSE(rig.card.state().fly.on());
 }
 
@@ -133,50 +133,50 @@ TEST(Rtc5Fly, SetMcbspInUsesAllLocationsAndMultiWritesRoundRobin) {
     Rig rig;
     ASSERT_TRUE(rig.card.fly().set_mcbsp_in(3, 1));
     for (int location = 0; location < 4; ++location)
-        EXPECT_EQ(rig.card.read_mcbsp(location).error().message,
+        EXPECT_EQ(rig.card.mcbsp().read(location).error().message,
                   "read_mcbsp: no word was received over McBSP yet; let the sender send one first");
-    rig.card.receive(0xFFFE0003);
+    rig.card.mcbsp().receive(0xFFFE0003);
     rig.run(1);
-    EXPECT_EQ(rig.card.read_mcbsp(0), static_cast<std::int32_t>(0xFFFE0003)) << "there as well";
-    EXPECT_EQ(rig.card.read_mcbsp(1), 3);
-    EXPECT_EQ(rig.card.read_mcbsp(2), -2);
-    EXPECT_EQ(rig.card.read_mcbsp(3), static_cast<std::int32_t>(0xFFFE0003));
+    EXPECT_EQ(rig.card.mcbsp().read(0), static_cast<std::int32_t>(0xFFFE0003)) << "there as well";
+    EXPECT_EQ(rig.card.mcbsp().read(1), 3);
+    EXPECT_EQ(rig.card.mcbsp().read(2), -2);
+    EXPECT_EQ(rig.card.mcbsp().read(3), static_cast<std::int32_t>(0xFFFE0003));
     ASSERT_TRUE(rig.card.fly().set_multi_mcbsp_in(0, 8192, 1));
-    rig.card.receive(1000u << 3 | 3);
-    rig.card.receive(100u << 3 | 0);
-    rig.card.receive(static_cast<std::uint32_t>(-50) << 3 | 1);
+    rig.card.mcbsp().receive(1000u << 3 | 3);
+    rig.card.mcbsp().receive(100u << 3 | 0);
+    rig.card.mcbsp().receive(static_cast<std::uint32_t>(-50) << 3 | 1);
     rig.run(1);
     EXPECT_EQ(rig.last_x(), 100);
     EXPECT_EQ(rig.last_y(), -50);
-    EXPECT_EQ(rig.card.read_mcbsp(1), 800);
-    EXPECT_EQ(rig.card.read_mcbsp(2), -399);
-    EXPECT_EQ(rig.card.multi_power(), 500);
-    EXPECT_EQ(rig.card.read_multi_mcbsp(1), -50);
+    EXPECT_EQ(rig.card.mcbsp().read(1), 800);
+    EXPECT_EQ(rig.card.mcbsp().read(2), -399);
+    EXPECT_EQ(rig.card.mcbsp().power(), 500);
+    EXPECT_EQ(rig.card.mcbsp().typed(1), -50);
 }
 
 TEST(Rtc5Fly, OnlinePositioningUsesLocations1And2AndMovesWhenApplied) {
     Rig rig;
     ASSERT_TRUE(rig.card.fly().set_mcbsp_online(2, 3, 0));
-    rig.card.receive(0xFFFE0003);
+    rig.card.mcbsp().receive(0xFFFE0003);
     rig.run(1);
     EXPECT_EQ(rig.last_x(), 0);
-    EXPECT_EQ(rig.card.read_mcbsp(1), static_cast<std::int32_t>(0xFFFE0003));
+    EXPECT_EQ(rig.card.mcbsp().read(1), static_cast<std::int32_t>(0xFFFE0003));
     ASSERT_TRUE(rig.card.apply_mcbsp(1, 1));
     rig.run(1);
     EXPECT_EQ(rig.last_x(), 6);
     EXPECT_EQ(rig.last_y(), -6);
-    for (const int location : {0, 2, 3}) EXPECT_FALSE(rig.card.read_mcbsp(location)) << location;
+    for (const int location : {0, 2, 3}) EXPECT_FALSE(rig.card.mcbsp().read(location)) << location;
     ASSERT_TRUE(rig.card.fly().set_mcbsp_online(1, 0, 3600));
-    rig.card.receive(1000);
-    rig.card.receive(0x80000000u | 900);
+    rig.card.mcbsp().receive(1000);
+    rig.card.mcbsp().receive(0x80000000u | 900);
     rig.run(1);
-    rig.card.receive(1000);
+    rig.card.mcbsp().receive(1000);
     rig.run(1);
     ASSERT_TRUE(rig.card.apply_mcbsp(1, 1));
     EXPECT_DOUBLE_EQ(rig.card.state().transforms.heads[0].transform.angle_deg, 90);
     EXPECT_EQ(rig.card.state().transforms.heads[0].transform.offset.x, 1000);
     rig.card.fly().set_mcbsp_matrix();
-    rig.card.receive(static_cast<std::uint32_t>(-(1 << 23)) << 2 | 2);  // M21 = -0.5
+    rig.card.mcbsp().receive(static_cast<std::uint32_t>(-(1 << 23)) << 2 | 2);  // M21 = -0.5
     rig.run(1);
     ASSERT_TRUE(rig.card.apply_mcbsp(4, 1));
     EXPECT_EQ(rig.card.state().transforms.global.matrix[2], -0.5);

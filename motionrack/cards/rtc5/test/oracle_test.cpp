@@ -203,8 +203,10 @@ class Pair {
                 t.set_matrix(head, once, a.v);
         if (a.kind == Act::offset)
             static_cast<void>(c.heads().set_offset(head, {x, y}, once)), t.set_offset(head, once, {x, y});
-        if (a.kind == Act::angle) static_cast<void>(c.heads().set_angle(head, degrees, once)), t.set_angle(head, once, degrees);
-        if (a.kind == Act::scale) static_cast<void>(c.heads().set_scale(head, scale, once)), t.set_scale(head, once, scale);
+        if (a.kind == Act::angle)
+            static_cast<void>(c.heads().set_angle(head, degrees, once)), t.set_angle(head, once, degrees);
+        if (a.kind == Act::scale)
+            static_cast<void>(c.heads().set_scale(head, scale, once)), t.set_scale(head, once, scale);
         if (a.kind == Act::hi) {
             static_cast<void>(c.heads().set_hi(3, {1 + a.v[0], 1}, {a.v[1] * 100, 0.5}));
             for (int h = 0; h < 2; ++h)
@@ -241,7 +243,7 @@ class Pair {
         const double x = pick(2) ? 1 : 0, y = pick(3) ? 0 : 2, turn = pick(5) ? 0 : 4000;
         const auto word = static_cast<std::uint32_t>(a.a);
         const int at_once = static_cast<int>(a.b) * 2;
-        if (a.kind == Act::word) c.receive(word), t.receive(word);
+        if (a.kind == Act::word) c.mcbsp().receive(word), t.receive(word);
         if (a.kind == Act::mcbsp_in)
             static_cast<void>(c.fly().set_mcbsp_in(pick(4), a.v[0] * 3)), t.set_mcbsp_in(pick(4), a.v[0] * 3);
         if (a.kind == Act::multi) static_cast<void>(c.fly().set_multi_mcbsp_in(0, 0, 0)), t.set_multi();
@@ -300,12 +302,13 @@ class Pair {
     }
 
     void compare_recordings() {
-        const Recording& r = card_.recording();
+        const Recording& r = card_.recorder().recording();
         both_.same("period of the recording", twin_.period, r.period);
         both_.same("recorded samples", static_cast<std::int64_t>(twin_.rows.size()), r.count);
         for (std::size_t i = 0; i < twin_.rows.size() && both_.equal(); ++i)
             for (std::size_t k = 0; k < twin_.rows[i].size(); ++k) {
-                const auto recorded = card_.recorded(static_cast<std::int64_t>(k), static_cast<std::int64_t>(i));
+                const auto recorded =
+                    card_.recorder().recorded(static_cast<std::int64_t>(k), static_cast<std::int64_t>(i));
                 if (recorded != twin_.rows[i][k])
                     both_.same(fmt::format("sample {} of signal {}", i, r.signals[k]), twin_.rows[i][k], recorded);
             }

@@ -8,7 +8,8 @@ namespace {
 
 std::vector<std::int32_t> recorded(const Engine& card, std::int64_t channel) {
     std::vector<std::int32_t> out;
-    for (std::int64_t i = 0; i < card.recording().count; ++i) out.push_back(card.recorded(channel, i));
+    for (std::int64_t i = 0; i < card.recorder().recording().count; ++i)
+        out.push_back(card.recorder().recorded(channel, i));
     return out;
 }
 
@@ -40,7 +41,7 @@ TEST(Rtc5Recording, SetTriggerStartsInItsTickAndAPolylineContinuesThroughIt) {
     const std::int64_t ticks = rig.go();
     EXPECT_EQ(ticks, 5 + 2 + 3 + 7 + 1);
     EXPECT_EQ(std::count(rig.laser.begin(), rig.laser.end(), 20), 10) << "the laser stays on through the corner";
-    EXPECT_EQ(rig.card.recording().count, 3 + 7);
+    EXPECT_EQ(rig.card.recorder().recording().count, 3 + 7);
     EXPECT_EQ(recorded(rig.card, 1), (std::vector<std::int32_t>{1, 1, 1, 0, 0, 0, 0, 0, 0, 0}));
 }
 
@@ -57,14 +58,14 @@ TEST(Rtc5Recording, StagesOfTheHeadAreRecordedSeparately) {
     const std::pair<std::uint32_t, std::int32_t> expected[] = {
         {7, 100}, {8, 7},  {25, 130}, {10, 1130}, {20, 2 * 1130 + 5}, {1, 2265}, {16, 2265}, {21, 7}, {11, 7},
         {0, 1},   {22, 0}, {13, 0},   {28, 0},    {45, 1000}};
-    for (const auto& [signal, value] : expected) EXPECT_EQ(rig.card.get_value(signal).value(), value) << signal;
+    for (const auto& [signal, value] : expected) EXPECT_EQ(rig.card.recorder().value(signal).value(), value) << signal;
     rig.put(Op::laser_signal_off_list);
     rig.put(Op::list_nop);
-    EXPECT_FALSE(rig.card.get_value(3));
-    EXPECT_FALSE(rig.card.get_value(4711));
+    EXPECT_FALSE(rig.card.recorder().value(3));
+    EXPECT_FALSE(rig.card.recorder().value(4711));
     rig.card.stop_execution();
     rig.run(1);
-    EXPECT_EQ(rig.card.get_value(16).value(), -524288) << "the laser is off";
+    EXPECT_EQ(rig.card.recorder().value(16).value(), -524288) << "the laser is off";
 }
 
 TEST(Rtc5Recording, ContinuesInTheNextListAndKeepsItsSamplesWhenItEnds) {
@@ -72,16 +73,16 @@ TEST(Rtc5Recording, ContinuesInTheNextListAndKeepsItsSamplesWhenItEnds) {
     rig.put(Op::set_trigger, {1, 7, 8});
     micro_vectors(rig, 3);
     rig.go();
-    EXPECT_EQ(rig.card.recording().count, 3);
+    EXPECT_EQ(rig.card.recorder().recording().count, 3);
     rig.run(10);
-    EXPECT_EQ(rig.card.recording().count, 3) << "no list runs";
+    EXPECT_EQ(rig.card.recorder().recording().count, 3) << "no list runs";
     rig.begin();
     micro_vectors(rig, 2);
     rig.put(Op::set_trigger, {0, 7, 8});
     micro_vectors(rig, 2);
     rig.go();
     EXPECT_EQ(recorded(rig.card, 0), (std::vector<std::int32_t>{10, 20, 30, 40, 50}));
-    EXPECT_EQ(rig.card.recording().period, 0);
+    EXPECT_EQ(rig.card.recorder().recording().period, 0);
     rig.begin();
     rig.put(Op::set_trigger, {1, 8, 8});
     micro_vectors(rig, 50);
@@ -91,7 +92,7 @@ TEST(Rtc5Recording, ContinuesInTheNextListAndKeepsItsSamplesWhenItEnds) {
     rig.card.stop_execution();
     rig.run(4);
     EXPECT_EQ(recorded(rig.card, 1), (std::vector<std::int32_t>{-8, -9, -10, -11}));
-    EXPECT_EQ(rig.card.recording().period, 0);
+    EXPECT_EQ(rig.card.recorder().recording().period, 0);
 }
 
 TEST(Rtc5Recording, EndsWhenItsMemoryIsFull) {
@@ -99,8 +100,8 @@ TEST(Rtc5Recording, EndsWhenItsMemoryIsFull) {
     rig.put(Op::set_trigger4, {1, 7, 8, 43, 44});
     rig.put(Op::long_delay, {600'000});
     rig.go();
-    EXPECT_EQ(rig.card.recording().count, 1 << 19);
-    EXPECT_EQ(rig.card.recording().period, 0);
+    EXPECT_EQ(rig.card.recorder().recording().count, 1 << 19);
+    EXPECT_EQ(rig.card.recorder().recording().period, 0);
 }
 
 TEST(Rtc5Recording, IsTheSameWithAndWithoutObservers) {
@@ -115,7 +116,7 @@ TEST(Rtc5Recording, IsTheSameWithAndWithoutObservers) {
         ASSERT_TRUE(card.execute_list(1));
         card.run_until(3000, &card == &cards[0] ? &looking : nullptr);
     }
-    EXPECT_GT(cards[0].recording().count, 100);
+    EXPECT_GT(cards[0].recorder().recording().count, 100);
     EXPECT_EQ(recorded(cards[0], 0), recorded(cards[1], 0));
     EXPECT_EQ(recorded(cards[0], 1), recorded(cards[1], 1));
 }
@@ -130,7 +131,7 @@ TEST(Rtc5Recording, ZIsThatOfTheLastTickWithAndWithoutObservers) {
         ASSERT_TRUE(rig.card.execute_list(1));
         rig.card.run_until(201, looks ? &rig : nullptr);
         EXPECT_EQ(rig.card.output().z, 0.5 * 2000);
-        EXPECT_EQ(rig.card.get_value(9).value(), 1000);
+        EXPECT_EQ(rig.card.recorder().value(9).value(), 1000);
     }
 }
 
@@ -139,34 +140,34 @@ TEST(Rtc5Mcbsp, SendsItsSignalsInTurn) {
     rig.put(Op::long_delay, {100});
     rig.put(Op::set_end_of_list);
     ASSERT_TRUE(rig.card.simulate_encoder(1));
-    EXPECT_EQ(rig.card.mcbsp_sent(), 0);
-    ASSERT_TRUE(rig.card.set_mcbsp_out(std::array<std::uint32_t, 3>{43, 45, 7}));
-    EXPECT_EQ(rig.card.mcbsp_sent(), 0) << "from the next tick on";
+    EXPECT_EQ(rig.card.recorder().sent(), 0);
+    ASSERT_TRUE(rig.card.recorder().send(std::array<std::uint32_t, 3>{43, 45, 7}));
+    EXPECT_EQ(rig.card.recorder().sent(), 0) << "from the next tick on";
     std::vector<std::int32_t> sent;
-    for (int i = 0; i < 5; ++i) rig.run(1), sent.push_back(rig.card.mcbsp_sent());
+    for (int i = 0; i < 5; ++i) rig.run(1), sent.push_back(rig.card.recorder().sent());
     EXPECT_EQ(sent, (std::vector<std::int32_t>{10, 1000, 0, 40, 1000}));
-    EXPECT_FALSE(rig.card.set_mcbsp_out(std::array<std::uint32_t, 2>{43, 6}));
-    EXPECT_FALSE(rig.card.set_mcbsp_out(std::array<std::uint32_t, 9>{}));
+    EXPECT_FALSE(rig.card.recorder().send(std::array<std::uint32_t, 2>{43, 6}));
+    EXPECT_FALSE(rig.card.recorder().send(std::array<std::uint32_t, 9>{}));
     rig.run(2);
-    EXPECT_EQ(rig.card.mcbsp_sent(), 70) << "what was refused changed nothing";
-    ASSERT_TRUE(rig.card.set_mcbsp_out({}));
+    EXPECT_EQ(rig.card.recorder().sent(), 70) << "what was refused changed nothing";
+    ASSERT_TRUE(rig.card.recorder().send({}));
     rig.run(1);
-    EXPECT_EQ(rig.card.mcbsp_sent(), 0);
+    EXPECT_EQ(rig.card.recorder().sent(), 0);
 }
 
 TEST(Rtc5Mcbsp, TheCurrentWordIsReadAndStoredAtLocation0) {
     Rig rig;
-    rig.card.receive(0xFFFE0003);
-    EXPECT_FALSE(rig.card.get_mcbsp()) << "it is not taken yet";
+    rig.card.mcbsp().receive(0xFFFE0003);
+    EXPECT_FALSE(rig.card.mcbsp().store_now()) << "it is not taken yet";
     rig.run(1);
-    EXPECT_FALSE(rig.card.read_mcbsp(0));
-    EXPECT_EQ(rig.card.get_mcbsp(), static_cast<std::int32_t>(0xFFFE0003));
-    EXPECT_EQ(rig.card.read_mcbsp(0), static_cast<std::int32_t>(0xFFFE0003));
-    rig.card.receive(12345);
+    EXPECT_FALSE(rig.card.mcbsp().read(0));
+    EXPECT_EQ(rig.card.mcbsp().store_now(), static_cast<std::int32_t>(0xFFFE0003));
+    EXPECT_EQ(rig.card.mcbsp().read(0), static_cast<std::int32_t>(0xFFFE0003));
+    rig.card.mcbsp().receive(12345);
     rig.put(Op::list_nop);
     rig.put(Op::get_mcbsp_list);
     rig.go();
-    EXPECT_EQ(rig.card.read_mcbsp(0), 12345);
+    EXPECT_EQ(rig.card.mcbsp().read(0), 12345);
 }
 
 TEST(Rtc5Mcbsp, OnlinePositioningInListsKeepsTheOtherAxes) {
@@ -176,7 +177,7 @@ TEST(Rtc5Mcbsp, OnlinePositioningInListsKeepsTheOtherAxes) {
     rig.put(Op::long_delay, {5});
     rig.put(Op::apply_mcbsp_list, {1, 1});
     rig.put(Op::list_nop);
-    rig.card.receive(0x0005FFF9);
+    rig.card.mcbsp().receive(0x0005FFF9);
     rig.go();
     EXPECT_EQ(rig.last_x(), -7 * 2);
     EXPECT_EQ(rig.last_y(), 5 * 3);

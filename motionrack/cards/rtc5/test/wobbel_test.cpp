@@ -57,7 +57,7 @@ TEST(Rtc5Wobbel, IsCorrectedAndOffWithoutAmplitudeOrFrequency) {
     for (const auto& [transversal, hertz] : {std::pair{0.0, 2500.0}, std::pair{100.0, 0.0}, std::pair{100.0, 2500.0}}) {
         Rig rig;
         rig.put(Op::set_rot_center_list, {0, 0});
-        rig.card.receive(900);
+        rig.card.mcbsp().receive(900);
         rig.put(Op::set_fly_rot_pos, {3600});  // a quarter turn, counter-clockwise
         rig.put(Op::set_mark_speed, {1000});
         rig.put(Op::set_wobbel, {transversal, 0, hertz});

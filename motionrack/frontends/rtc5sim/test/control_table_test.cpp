@@ -110,7 +110,7 @@ TEST(Rtc5ControlTable, EachCommandReturnsTheDeclaredNumberOfValues) {
         SCOPED_TRACE(command.name);
         Engine card;
         ASSERT_TRUE(card.fly().set_mcbsp_in(3, 0));
-        card.receive(0x00010002);
+        card.mcbsp().receive(0x00010002);
         card.run_until(1);
         const auto answer = command.run(card, min_of(command));
         ASSERT_TRUE(answer) << answer.error().message;

@@ -151,21 +151,21 @@ const Row control_rows[] = {
      [] { set_mcbsp_x(2), set_mcbsp_y(3), rtc5sim_receive(1, 0x00050007), rtc5sim_advance_us(20), apply_mcbsp(1, 1); },
      [](Engine& c) {
          ASSERT_TRUE(c.fly().set_mcbsp_online(2, 3, 0));
-         c.receive(0x00050007), c.run_until(c.tick() + 2);
+         c.mcbsp().receive(0x00050007), c.run_until(c.tick() + 2);
          ASSERT_TRUE(c.apply_mcbsp(1, 1));
      }},
     {"set_mcbsp_rot",
      [] { set_mcbsp_rot(3600), rtc5sim_receive(1, 0x80000384), rtc5sim_advance_us(20), apply_mcbsp(1, 1); },
      [](Engine& c) {
          ASSERT_TRUE(c.fly().set_mcbsp_online(0, 0, 3600));
-         c.receive(0x80000384), c.run_until(c.tick() + 2);
+         c.mcbsp().receive(0x80000384), c.run_until(c.tick() + 2);
          ASSERT_TRUE(c.apply_mcbsp(1, 1));
      }},
     {"set_mcbsp_matrix",
      [] { set_mcbsp_matrix(), rtc5sim_receive(1, 0x02000001), rtc5sim_advance_us(20), apply_mcbsp(1, 1); },
      [](Engine& c) {
          c.fly().set_mcbsp_matrix();
-         c.receive(0x02000001), c.run_until(c.tick() + 2);
+         c.mcbsp().receive(0x02000001), c.run_until(c.tick() + 2);
          ASSERT_TRUE(c.apply_mcbsp(1, 1));
      }},
     {"goto_xy", [] { goto_xy(3000, 4000), rtc5sim_run(1'000'000); },
@@ -181,13 +181,13 @@ const Row control_rows[] = {
     {"get_mcbsp", [] { get_mcbsp(); },
      [](Engine& c) {
          c.run_until(c.tick() + 1);
-         ASSERT_TRUE(c.get_mcbsp());
+         ASSERT_TRUE(c.mcbsp().store_now());
      }},
     {"disable_laser", [] { disable_laser(); }, [](Engine& c) { c.disable_laser(); }},
     {"enable_laser", [] { disable_laser(), enable_laser(); }, [](Engine& c) { c.disable_laser(), c.enable_laser(); }},
     {"set_mcbsp_out", [] { set_mcbsp_out(7, 43); },
      [](Engine& c) {
-         ASSERT_TRUE(c.set_mcbsp_out(std::array<std::uint32_t, 2>{7, 43}));
+         ASSERT_TRUE(c.recorder().send(std::array<std::uint32_t, 2>{7, 43}));
      }},
     {"set_start_list_pos", [] { set_start_list_pos(2, 7); }, [](Engine& c) { ASSERT_TRUE(c.set_start_list(2, 7)); }},
     {"load_sub", [] { load_sub(9), mark_rel(50, 60), list_return(), set_start_list(1), sub_call(9); },
@@ -272,7 +272,7 @@ Did by_library(const Row* control, const Row* in_list) {
 Did by_card(const Row* control, const Row* in_list) {
     Engine card;
     EXPECT_TRUE(card.simulate_encoder(3));
-    card.receive(0x00010001);
+    card.mcbsp().receive(0x00010001);
     if (control != nullptr) control->card(card);
     const std::int64_t begin = card.input_pointer();
     put(card, Op::set_mark_speed, {20'000}), put(card, Op::set_jump_speed, {50'000});
@@ -288,18 +288,19 @@ Did by_card(const Row* control, const Row* in_list) {
     did.answers = {card.status(),           card.list_position(),    card.get_marking_info(), card.get_startstop_info(),
                    card.state().io,         card.encoder(0),         card.encoder(1),         card.read_encoder(0)[0],
                    card.read_encoder(0)[1], card.read_encoder(1)[0], card.read_encoder(1)[1]};
-    for (int i = 0; i < 4; ++i) did.answers.push_back(card.read_mcbsp(i).value_or(0));
-    for (int i = 0; i < 8; ++i) did.answers.push_back(card.read_multi_mcbsp(i));
+    for (int i = 0; i < 4; ++i) did.answers.push_back(card.mcbsp().read(i).value_or(0));
+    for (int i = 0; i < 8; ++i) did.answers.push_back(card.mcbsp().typed(i));
     did.answers.push_back(static_cast<std::int64_t>(card.state().fly.offset_2d.x));
     did.answers.push_back(static_cast<std::int64_t>(card.state().fly.offset_2d.y));
     did.answers.push_back(card.state().lists.input_end - card.input_pointer());
     did.answers.push_back(card.list_status());
     for (const rtc5::SignalInfo& signal : rtc5::map::signals)
-        did.answers.push_back(card.get_value(signal.number).value());
-    did.answers.push_back(card.recording().period != 0);
-    did.answers.push_back(static_cast<UINT>(card.recording().count) - 1);
-    for (std::int64_t i = 0; i < card.recording().count; ++i) did.answers.push_back(card.recorded(1, i));
-    did.answers.push_back(card.mcbsp_sent());
+        did.answers.push_back(card.recorder().value(signal.number).value());
+    did.answers.push_back(card.recorder().recording().period != 0);
+    did.answers.push_back(static_cast<UINT>(card.recorder().recording().count) - 1);
+    for (std::int64_t i = 0; i < card.recorder().recording().count; ++i)
+        did.answers.push_back(card.recorder().recorded(1, i));
+    did.answers.push_back(card.recorder().sent());
     return did;
 }
 
