@@ -13,7 +13,10 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -62,10 +65,30 @@ class ReferenceServer {
     std::thread thread_;
 };
 
+/// How long the threads of a process have run, and have waited for a processor, as the kernel counts it.
+struct ProcessorTime {
+    double ran = 0, waited = 0;  ///< s
+
+    static ProcessorTime of(pid_t process) {
+        ProcessorTime out;
+        std::error_code none;
+        for (const auto& task :
+             std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task", none)) {
+            double ran = 0, waited = 0;  // ns
+            if (std::ifstream(task.path() / "schedstat") >> ran >> waited)
+                out.ran += ran / 1e9, out.waited += waited / 1e9;
+        }
+        return out;
+    }
+};
+
 class AnswerDelays {
   public:
     using Milliseconds = std::chrono::duration<double, std::milli>;
     static constexpr Milliseconds promised{50};
+    /// `server`: the process that answers, if it is another one. If other programs leave its threads less than all the
+    /// time that they want to run, down to a quarter, all takes as much longer.
+    explicit AnswerDelays(pid_t server = 0) : server_(server) {}
     /// A stop is several steps of several threads; the computer may delay each as much as the whole reference.
     static constexpr double steps = 20;
 
@@ -73,7 +96,12 @@ class AnswerDelays {
     template <class Stop>
     void measure(const Stop& stop) {
         const std::clock_t cpu_before = std::clock();
+        const ProcessorTime before = server_ == 0 ? ProcessorTime{} : ProcessorTime::of(server_);
         stops_.push_back(time_of(stop));
+        if (server_ != 0) {
+            const ProcessorTime now = ProcessorTime::of(server_);
+            used_.ran += now.ran - before.ran, used_.waited += now.waited - before.waited;
+        }
         cpu_ += static_cast<double>(std::clock() - cpu_before) / CLOCKS_PER_SEC;
         wall_ += std::chrono::duration<double>(stops_.back()).count();
         references_.push_back(time_of([this] { reference_.ask(); }));
@@ -85,11 +113,11 @@ class AnswerDelays {
     /// other programs leave them less than a processor each, down to a quarter, all takes as much longer.
     void expect_in_time(double part, const std::string& name, int busy_threads = 0) const {
         const Milliseconds stop = within(stops_, part), reference = within(references_, part);
-        const double got = busy_threads == 0 ? 1 : std::clamp(cpu_ / wall_ / busy_threads, 0.25, 1.0);
+        const double wanted = server_ == 0 ? wall_ * busy_threads : used_.ran + used_.waited,
+                     had = server_ == 0 ? cpu_ : used_.ran, got = wanted > 0 ? std::clamp(had / wanted, 0.25, 1.0) : 1;
         std::printf(
             "%s: %.0f %% of %zu stops were answered within %.1f ms, all within %.1f ms; the reference: %.1f ms; %.2f "
-            "of a "
-            "processor a thread\n",
+            "of a processor a thread\n",
             name.c_str(), 100 * part, stops_.size(), stop.count(), within(stops_, 1).count(), reference.count(), got);
         EXPECT_LE(stop.count(), std::max(promised / got, steps * reference).count())
             << name << ": ms within which " << 100 * part << " % of the stops were answered; the reference took "
@@ -109,6 +137,8 @@ class AnswerDelays {
                            : all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1))];
     }
     ReferenceServer reference_;
+    const pid_t server_;
+    ProcessorTime used_;
     double cpu_ = 0, wall_ = 0;  ///< s of all threads, and of the stops
     std::vector<Milliseconds> stops_, references_;
 };

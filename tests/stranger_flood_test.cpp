@@ -134,7 +134,7 @@ class RequestFlood : public InFolder {
         std::vector<std::thread> threads;
         for (unsigned kind = 0; kind < 5; ++kind)
             threads.emplace_back(flood, served.port(), kind, std::cref(quit), std::ref(asked));
-        test::AnswerDelays delays;
+        test::AnswerDelays delays(served.process());
         for (const auto end = Clock::now() + time; delays.count() < stops || Clock::now() < end;) {
             delays.measure([&] {
                 const Stranger one(served.port(), 0);
