@@ -93,11 +93,13 @@ class CSession {
         : rack_(rack), watched_(watched), laws_(axes_of(watched), picture(), report_breach) {}
 
     void see() { laws_.see(picture()); }
-    /// Of an order that was executed; those that were refused change nothing.
+    /// Of an order that was executed; those that were refused change nothing. Its call-back cannot close the rack.
     template <class Call>
     int order(Call call) {
         if (!busy_ && !laws_.is_ordered()) see();
+        const bool within = std::exchange(busy_, true);
         const int code = call();
+        busy_ = within;
         if (code == MR_OK) laws_.ordered();
         return code;
     }
