@@ -4,7 +4,7 @@
 //
 // In the namespace of its type a program has
 //   void run_both(const Program&, oracle::Comparison&)   runs it on the card and on the twin, and compares them
-//   std::string text_of(const Program&)                  for messages
+//   std::string listing_of(const Program&)               for messages
 //   steps_of(Program&)                                   std::tie of the vectors of its steps; `ops` needs none
 // and, if its state is saved and restored on the way, a member `snapshot_at`: the number of a step.
 //
@@ -180,7 +180,7 @@ void compare(const Series& series, const Make& make) {
             const auto small = shrink(program, [](const auto& p) { return !comparison_of(p).equal(); });
             FAIL() << "the card and its twin differ in program " << number << " of seed " << seed << ":\n"
                    << both.differences() << "and shortened:\n"
-                   << comparison_of(small).differences() << text_of_snapshot(small) << text_of(small)
+                   << comparison_of(small).differences() << text_of_snapshot(small) << listing_of(small)
                    << "To run it again: " << command_of(seed, number, series);
         }
         for (const auto& [what, count] : both.counts()) counts[what] += count;

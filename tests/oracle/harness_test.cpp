@@ -22,7 +22,7 @@ void run_both(const Toy& toy, Comparison& both) {
     both.same("wrong", 0, static_cast<int>(std::count(three, toy.ops.end(), 5)));
     both.count("steps", toy.ops.size());
 }
-std::string text_of(const Toy& toy) {
+std::string listing_of(const Toy& toy) {
     return text_of_steps(toy.ops);
 }
 

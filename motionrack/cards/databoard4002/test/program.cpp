@@ -210,7 +210,7 @@ void run_both(const Program& program, oracle::Comparison& both) {
     both.count("pulses net", std::llabs(twin.sights.back().pulses));
 }
 
-std::string text_of(const Program& program) {
+std::string listing_of(const Program& program) {
     const Strapping& s = program.strapping;
     return fmt::format("source {}, pass {} ticks, byte {} slices, folding {} from {}{}{}\n", static_cast<int>(s.source),
                        s.firmware_pass_ticks, s.byte_slices, s.folding, s.first_pair, s.up_down ? ", up/down" : "",

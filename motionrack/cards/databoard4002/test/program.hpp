@@ -49,7 +49,7 @@ Outcome run_on_twin(const Program& program);
 Outcome run_on_card(const Program& program);
 void run_both(const Program& program, oracle::Comparison& both);
 
-std::string text_of(const Program& program);
+std::string listing_of(const Program& program);
 void PrintTo(const Op& op, std::ostream* out);
 void PrintTo(const Sight& sight, std::ostream* out);
 void PrintTo(const Note& note, std::ostream* out);

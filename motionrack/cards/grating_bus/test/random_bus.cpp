@@ -188,7 +188,7 @@ void carry_out(Twin& twin, const Op& op) {
     if (op.kind == Op::clear) twin.clear_errors(op.who);
 }
 
-std::string text_of(const Program& program) {
+std::string listing_of(const Program& program) {
     std::string out;
     const auto add = [&out](const char* name, std::int64_t value) {
         out.append(" ").append(name).append(" ").append(std::to_string(value));

@@ -68,7 +68,7 @@ Twin twin_of(const Program& program, bool every_tick = false);
 void carry_out(Twin& twin, const Op& op);
 
 // For messages of failed tests.
-std::string text_of(const Program& program);
+std::string listing_of(const Program& program);
 void PrintTo(const Op& op, std::ostream* out);
 
 }  // namespace motionrack::grating_bus::twin

@@ -174,7 +174,7 @@ TEST(GratingTwin, GivesTheSameResultsIfIdleInstantsAreSkipped) {
         Twin twins[2] = {twin_of(program), twin_of(program, true)};
         for (Twin& twin : twins)
             for (const Op& op : program.ops) carry_out(twin, op);
-        SCOPED_TRACE("program " + std::to_string(number) + "\n" + text_of(program));
+        SCOPED_TRACE("program " + std::to_string(number) + "\n" + listing_of(program));
         for (int card = 0; card < static_cast<int>(program.cards.size()); ++card) {
             ASSERT_EQ(twins[0].frames(card), twins[1].frames(card));
             ASSERT_EQ(twins[0].states(card), twins[1].states(card));

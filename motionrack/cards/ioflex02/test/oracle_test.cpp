@@ -41,7 +41,7 @@ struct Program {
     std::size_t snapshot_at = oracle::never;
 };
 
-std::string text_of(const Program& program) {
+std::string listing_of(const Program& program) {
     return fmt::format("{}, configured in {} halves\n", program.preloaded ? "preloaded" : "empty",
                        program.configuration_halves) +
            oracle::text_of_steps(program.ops);

@@ -122,7 +122,7 @@ void watch_programs(std::set<std::string>& taken, std::uint64_t first, std::uint
         if (program.ticks > 20'000) continue;
         Watched watched(taken, variant);
         watched.run(program);
-        ASSERT_EQ(watched.problem, "") << twin::text_of(program);
+        ASSERT_EQ(watched.problem, "") << twin::listing_of(program);
     }
 }
 void expect_every_way(const std::set<std::string>& taken, std::size_t from, std::size_t to) {

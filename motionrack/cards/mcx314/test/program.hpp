@@ -52,7 +52,7 @@ struct Program {
 Program make_program(std::uint64_t seed, std::uint64_t number, const ChipOptions& options = {});
 
 /// The register traffic as text, one line per op.
-std::string text_of(const Program& program);
+std::string listing_of(const Program& program);
 
 /// splitmix64: small, and the same on every machine.
 class Random {

@@ -65,7 +65,7 @@ std::string text_of_command(unsigned value, unsigned wr6, unsigned wr7) {
 
 }  // namespace
 
-std::string text_of(const Program& program) {
+std::string listing_of(const Program& program) {
     const ChipOptions& options = program.options;
     const Way& way = program.way;
     std::string out = fmt::format("{}{}{}{}{}{}AO {}, slices {}, seed {}, program {}, {} ticks\n",

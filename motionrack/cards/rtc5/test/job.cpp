@@ -137,7 +137,7 @@ Job JobMaker::make() {
     return out;
 }
 
-std::string text_of(const Job& job) {
+std::string listing_of(const Job& job) {
     std::string out = fmt::format("inputs {}, counts per tick {} {}, a word every {} ticks\n", job.inputs, job.rate[0],
                                   job.rate[1], job.word_every);
     out += oracle::text_of_steps(job.acts);

@@ -69,7 +69,7 @@ inline auto steps_of(Job& job) {
 }
 
 // For messages of failed tests.
-std::string text_of(const Job& job);
+std::string listing_of(const Job& job);
 void PrintTo(const Act& act, std::ostream* out);
 void PrintTo(const Command& command, std::ostream* out);
 
