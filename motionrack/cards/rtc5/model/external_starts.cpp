@@ -6,6 +6,7 @@ namespace motionrack::rtc5 {
 
 void ExternalStarts::take() {
     Starts& s = starts_;
+    if (s.asked_count == 0 && s.triggers == 0 && s.waiting == 0) return;
     const auto asked = s.asked_count;
     s.asked_count = 0;
     for (std::int64_t i = 0; i < asked; ++i) {
