@@ -1,6 +1,7 @@
 // Time and wires: the start of the project, and the sample of each change.
 #include <algorithm>
 #include <motionrack/cards/ioflex02/model/card.hpp>
+#include <motionrack/sim/held_outputs.hpp>
 
 namespace motionrack::ioflex02 {
 
@@ -132,15 +133,13 @@ std::uint32_t Card::time() const {
 
 /// The host writes the outputs in `mask`.
 void Card::put_out(std::uint16_t levels, std::uint16_t mask) {
-    state_.held = static_cast<std::uint16_t>(state_.held & (levels | ~mask));
-    if (const int low = state_.held & mask; low != 0 && std::exchange(state_.reported_held, std::uint16_t{1}) == 0)
-        report(CardCondition::outputs_held, low);
-    state_.outputs = static_cast<std::uint16_t>(((state_.outputs & ~mask) | (levels & mask)) & ~state_.held);
+    const std::uint32_t low = sim::put_unless_held({levels, mask}, state_.outputs, state_.held);
+    if (low != 0 && std::exchange(state_.reported_held, 1) == 0) report(CardCondition::outputs_held, low);
     for (std::size_t i = 0; i < 16; ++i) kernel_.set_wire(wires_[line_pins + input_pins + i], state_.outputs >> i & 1);
 }
 
 void Card::clear_outputs() {
-    const auto held = static_cast<std::uint16_t>(state_.held | state_.outputs);
+    const std::uint32_t held = state_.held | state_.outputs;
     put_out(0);
     state_.held = held;
     state_.reported_held = 0;

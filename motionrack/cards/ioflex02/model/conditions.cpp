@@ -52,8 +52,7 @@ std::string what_happened(const sim::Condition& c) {
         case CardCondition::outputs_held:
             return fmt::format(
                 "the outputs with the bits {:04X}h stayed low: a stop of the machine cleared them; write them low "
-                "first, "
-                "then high",
+                "first, then high",
                 c.a);
     }
     return fmt::format("condition {} ({}, {})", c.code, c.a, c.b);

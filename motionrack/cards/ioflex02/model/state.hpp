@@ -49,9 +49,8 @@ struct State {
     std::uint16_t axis = 0;  ///< selected by AXIS
     std::uint16_t reported_no_project = 0;
     std::uint16_t begun = 0;
-    std::uint16_t held = 0;  ///< outputs that a stop of the machine cleared, until the host writes them low
-    std::uint16_t reported_held = 0;
-    std::uint32_t reserved = 0;
+    std::uint32_t held = 0;  ///< outputs that a stop of the machine cleared, until the host writes them low
+    std::uint32_t reported_held = 0;
 };
 
 static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");

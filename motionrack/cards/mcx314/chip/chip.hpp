@@ -47,6 +47,7 @@
 #include <motionrack/cards/mcx314/chip/state.hpp>
 #include <motionrack/cards/mcx314/chip/status_registers.hpp>
 #include <motionrack/cards/mcx314/chip/synchronous_actions.hpp>
+#include <motionrack/sim/held_outputs.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/position_function.hpp>
 #include <motionrack/sim/register_device.hpp>
@@ -138,7 +139,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     // registers.cpp
     void reset();
     void write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask);
-    void write_mode(std::uint32_t offset, int a, const MaskedWrite& put);
+    void write_mode(std::uint32_t offset, int a, const sim::MaskedWrite& put);
 
     sim::Kernel& kernel_;
     sim::DeviceId id_;

@@ -11,11 +11,12 @@ struct Chip::GeneralOutputs {
     /// that show the status of the drive (OUTSL) continue to show it. Between runs only.
     static void clear(Chip& chip);
     /// The host writes WR4. Reports the first output that stays low.
-    static void write(Chip& chip, const MaskedWrite& put);
+    static void write(Chip& chip, const sim::MaskedWrite& put);
     /// The host writes WR3 of an axis. As write.
-    static void write_modes(Chip& chip, int axis, const MaskedWrite& put);
+    static void write_modes(Chip& chip, int axis, const sim::MaskedWrite& put);
 
   private:
+    /// `low`: bits of WR`number` that stay low.
     static void report(Chip& chip, int number, std::uint32_t low);
 };
 

@@ -51,7 +51,7 @@ void Chip::write_byte(std::uint32_t port, std::uint8_t value) {
 void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask) {
     const Instant now = kernel_.now();
     catch_up(now);
-    const MaskedWrite put{value, mask};
+    const sim::MaskedWrite put{value, mask};
     if (state_.pattern.writable && offset >= reg::WR2 && offset <= reg::WR7)
         put(state_.pattern.registers[(offset - reg::WR2) / 2]);
     else if (offset == reg::WR0)
@@ -74,7 +74,7 @@ void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t m
 }
 
 /// WR1 .. WR3 of an axis.
-void Chip::write_mode(std::uint32_t offset, int a, const MaskedWrite& put) {
+void Chip::write_mode(std::uint32_t offset, int a, const sim::MaskedWrite& put) {
     Axis& axis = state_.axis[a];
     if (offset == reg::WR3) {
         const std::uint16_t before = axis.wr3;

@@ -25,13 +25,6 @@ constexpr int drive_code(Drive drive, int direction) {
     return direction > 0 ? cmd::CONTINUOUS_PLUS : cmd::CONTINUOUS_MINUS;
 }
 
-/// A register of which the host writes the bits in `mask`.
-struct MaskedWrite {
-    std::uint16_t value = 0, mask = 0xFFFF;
-
-    void operator()(std::uint16_t& word) const { word = static_cast<std::uint16_t>((word & ~mask) | (value & mask)); }
-};
-
 /// Parameters captured by an interpolation command.
 struct PathCommand {
     std::int32_t code = 0;  ///< cmd::LINE2 .. cmd::BP3
