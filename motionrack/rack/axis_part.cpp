@@ -1,12 +1,14 @@
-// An axis as a part: its quantities, how its position is set by a push of the motor, and its faults.
+// An axis as a part: its quantities, how its position is set by a push of the motor, its faults, and its signals.
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/table_part.hpp>
+#include <utility>
 
 namespace motionrack::rack {
 
@@ -187,12 +189,125 @@ Result<std::string> AxisPart::fault_to_set(std::string_view quantity_name, doubl
     return fmt::format("motor.push={:.0f}", push);
 }
 
+// ---- signals
+
+bool takes_pulses(const RackAxis& axis) {
+    return !axis.servo;
+}
+bool has_encoder(const RackAxis& axis) {
+    return axis.encoder_counts_per_rev > 0;
+}
+
+constexpr std::string_view track_a = "enc_a", track_b = "enc_b";
+constexpr std::array<SignalRow<RackAxis>, 10> axis_signals = {{
+    {"step", PinDirection::input, "a pulse moves the motor by one microstep", takes_pulses,
+     "a stepping motor (no servo)"},
+    {"dir", PinDirection::input, "the direction of the pulses", takes_pulses, "a stepping motor (no servo)"},
+    {"drive", PinDirection::input, "velocity command of the servo amplifier, V",
+     [](const RackAxis& axis) { return axis.servo.has_value(); }, "a servo", 1e-6},
+    {track_a, PinDirection::output, "encoder track A", has_encoder, "encoder_counts_per_rev above 0"},
+    {track_b, PinDirection::output, "encoder track B", has_encoder, "encoder_counts_per_rev above 0"},
+    {"enc_z", PinDirection::output, "encoder index, once a motor turn", has_encoder, "encoder_counts_per_rev above 0"},
+    {"limit_plus", PinDirection::output, "limit switch at the + end",
+     [](const RackAxis& axis) { return axis.switches.limit_plus.has_value(); }, "limit_plus_{u} in its switches"},
+    {"limit_minus", PinDirection::output, "limit switch at the - end",
+     [](const RackAxis& axis) { return axis.switches.limit_minus.has_value(); }, "limit_minus_{u} in its switches"},
+    {"home", PinDirection::output, "home switch", [](const RackAxis& axis) { return axis.switches.home.has_value(); },
+     "home_{u} in its switches"},
+    {"cam", PinDirection::output, "reference cam: low between its ends",
+     [](const RackAxis& axis) { return axis.switches.has_cam(); }, "cam_from_{u} and cam_to_{u} in its switches"},
+}};
+
+std::string axis_name_of(const RackConfig& config, std::size_t index) {
+    return std::string(1, config.axes[index].letter);
+}
+
+std::vector<PartSignal> signals_of_axes(const RackConfig& config) {
+    std::vector<PartSignal> out;
+    for (std::size_t i = 0; i < config.axes.size(); ++i) {
+        const std::string name = axis_name_of(config, i);
+        append_signals(axis_signals, config.axes[i], {EndOwner::axis, i, name, "axis " + name, config.axes[i].unit()},
+                       out);
+    }
+    return out;
+}
+
+/// Joins each channel to its axis as the type of the card says.
+void join_axes(const RackConfig& config, const JoinPins& join) {
+    for (const RackAxis& axis : config.axes) {
+        if (channel_index(config, axis) < 0) continue;
+        for (const DefaultWire& wire : find_card_type(config.card(axis.card)->type)->default_wires)
+            join(fmt::format("{}.{}{}", axis.card, axis.channel, wire.pin),
+                 fmt::format("{}.{}", axis.letter, wire.end));
+    }
+}
+
+/// The tracks of an encoder become wires when the first card needs them.
+sim::WireId axis_wire(Rack& rack, const WireEnd& end) {
+    sim::Kernel& kernel = rack.kernel();
+    if (end.pin != track_a && end.pin != track_b) return kernel.find_wire(rack.config().end_name(end));
+    RunningAxis& axis = rack.axes()[static_cast<std::size_t>(end.index)];
+    const std::string name = fmt::format("{}.lines", axis.config.letter);
+    if (!axis.lines) {
+        parts::LineEncoderSettings settings;
+        settings.counts_per_turn = settings.position_per_turn = axis.config.encoder_counts_per_rev;
+        // A pulse may be many counts, and a rotor can jump when it locks elsewhere. Their edges keep a minimum
+        // distance, and none is lost.
+        settings.min_edge_interval = nanoseconds(200);
+        settings.too_quick = parts::TooQuick::loses_by_fault;
+        axis.lines = std::make_unique<parts::LineEncoder>(kernel, name, axis.machine->encoder(), settings);
+    }
+    return kernel.find_wire(name + (end.pin == track_a ? ".a" : ".b"));
+}
+
+PartWire wire_of_axis(const Rack& rack, const RunningAxis& axis, const SignalRow<RackAxis>& row) {
+    const RackConfig& config = rack.config();
+    PartWire out;
+    out.name = fmt::format("{}.{}", axis.config.letter, row.name);
+    out.id = rack.kernel().find_wire(out.name);
+    if (row.name == track_a || row.name == track_b) {
+        out.refused = fmt::format(
+            "{} cannot be forced: it is the output of the encoder. Force the connected input of a card", out.name);
+        out.from_edges = true;
+        out.level = [&machine = *axis.machine, second = row.name == track_b](Instant now) {
+            const parts::QuadratureLevels lines = machine.encoder_lines(now);
+            return second ? lines.b : lines.a;
+        };
+    } else if (row.volts > 0) {
+        out.unit = row.volts;
+    } else if (row.direction == PinDirection::input) {
+        out.refused = fmt::format(
+            "{} cannot be forced: it follows all pulses of a channel. Move it by the card or by set_quantity",
+            out.name);
+        out.from_edges = true;
+        for (const RackWire& joined : config.wires)
+            if (config.end_name(joined.to) == out.name) out.id = rack.kernel().find_wire(config.end_name(joined.from));
+    }
+    return out;
+}
+
+std::vector<PartWire> wires_of_axes(Rack& rack) {
+    std::vector<PartWire> out;
+    for (const RunningAxis& axis : rack.axes())
+        for (const SignalRow<RackAxis>& row : axis_signals)
+            if (row.has(axis.config)) out.push_back(wire_of_axis(rack, axis, row));
+    return out;
+}
+
+constexpr PartSignals axis_part_signals = {
+    EndOwner::axis,  [] { return declared_signals<RackAxis>(axis_signals, "X"); },
+    signals_of_axes, axis_name_of,
+    wires_of_axes,   join_axes,
+    axis_wire,
+};
+
 void add_axis_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
     for (RunningAxis& axis : rack.axes()) parts.push_back(std::make_unique<AxisPart>(axis));
 }
 
 }  // namespace
 
-constinit const PartKind axis_part_kind = {"axis", add_axis_parts, declared<axis_quantities>, names_of<axis_faults>};
+constinit const PartKind axis_part_kind = {"axis", add_axis_parts, declared<axis_quantities>, names_of<axis_faults>,
+                                           &axis_part_signals};
 
 }  // namespace motionrack::rack

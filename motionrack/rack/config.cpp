@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <motionrack/rack/card_types.hpp>
 #include <motionrack/rack/config.hpp>
+#include <motionrack/rack/part_signals.hpp>
 
 namespace motionrack::rack {
 
@@ -91,13 +92,9 @@ control::MachineLimits RackConfig::limits() const {
 }
 
 std::string RackConfig::end_name(const WireEnd& end) const {
-    if (end.owner == EndOwner::estop) return "estop";
-    if (end.owner == EndOwner::probe) return "probe";
     const auto index = static_cast<std::size_t>(end.index);
-    const std::string owner = end.owner == EndOwner::card    ? cards[index].name
-                              : end.owner == EndOwner::track ? tracks[index].name
-                                                             : std::string(1, axes[index].letter);
-    return owner + '.' + end.pin;
+    if (end.owner == EndOwner::card) return cards[index].name + '.' + end.pin;
+    return signal_name(signals_of(end.owner).part_name(*this, index), end.pin);
 }
 
 }  // namespace motionrack::rack

@@ -270,10 +270,10 @@ struct RackStage {
 
 // ---- Wires
 
-enum class EndOwner : std::uint8_t { card, axis, track, estop, probe };
+enum class EndOwner : std::uint8_t { card, axis, track, estop, probe, stage };
 
-/// One end of a wire: pin `pin` of cards[index] ("xpp"), signal `pin` of axes[index] (see axis_ends()) or tracks[index]
-/// (see track_ends()). With an empty pin: the emergency stop or the probe.
+/// One end of a wire: pin `pin` of cards[index] ("xpp"), or signal `pin` of axes[index] or tracks[index] (see
+/// part_signals.hpp). With an empty pin: the emergency stop or the probe.
 struct WireEnd {
     EndOwner owner = EndOwner::card;
     int index = 0;

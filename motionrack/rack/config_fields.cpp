@@ -1,5 +1,4 @@
 // Keys of a rack file, each declared once: name, range, unit, meaning. Defaults are those of the structs in config.hpp.
-#include <algorithm>
 #include <motionrack/rack/config_parts.hpp>
 
 namespace motionrack::rack {
@@ -153,31 +152,6 @@ constexpr std::array<Field, 3> safety_table = {
                              "off, and nothing begins to move"),
 };
 
-bool steps(const RackAxis& axis) {
-    return !axis.servo;
-}
-bool has_encoder(const RackAxis& axis) {
-    return axis.encoder_counts_per_rev > 0;
-}
-
-constexpr std::array<AxisSignal, 10> axis_end_table = {{
-    {"step", PinDirection::input, "a pulse moves the motor by one microstep", steps, "a stepping motor (no servo)"},
-    {"dir", PinDirection::input, "the direction of the pulses", steps, "a stepping motor (no servo)"},
-    {"drive", PinDirection::input, "velocity command of the servo amplifier, V",
-     [](const RackAxis& axis) { return !steps(axis); }, "a servo", 1e-6},
-    {"enc_a", PinDirection::output, "encoder track A", has_encoder, "encoder_counts_per_rev above 0"},
-    {"enc_b", PinDirection::output, "encoder track B", has_encoder, "encoder_counts_per_rev above 0"},
-    {"enc_z", PinDirection::output, "encoder index, once a motor turn", has_encoder, "encoder_counts_per_rev above 0"},
-    {"limit_plus", PinDirection::output, "limit switch at the + end",
-     [](const RackAxis& axis) { return axis.switches.limit_plus.has_value(); }, "limit_plus_{u} in its switches"},
-    {"limit_minus", PinDirection::output, "limit switch at the - end",
-     [](const RackAxis& axis) { return axis.switches.limit_minus.has_value(); }, "limit_minus_{u} in its switches"},
-    {"home", PinDirection::output, "home switch", [](const RackAxis& axis) { return axis.switches.home.has_value(); },
-     "home_{u} in its switches"},
-    {"cam", PinDirection::output, "reference cam: low between its ends",
-     [](const RackAxis& axis) { return axis.switches.has_cam(); }, "cam_from_{u} and cam_to_{u} in its switches"},
-}};
-
 }  // namespace
 
 std::span<const Field> rack_fields() {
@@ -216,16 +190,6 @@ std::span<const Field> controller_fields() {
 
 std::span<const Field> safety_fields() {
     return safety_table;
-}
-
-std::span<const AxisSignal> axis_ends() {
-    return axis_end_table;
-}
-
-const AxisSignal* find_axis_end(std::string_view name) {
-    const auto found = std::find_if(axis_end_table.begin(), axis_end_table.end(),
-                                    [&](const AxisSignal& end) { return end.name == name; });
-    return found != axis_end_table.end() ? &*found : nullptr;
 }
 
 }  // namespace motionrack::rack

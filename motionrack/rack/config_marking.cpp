@@ -67,25 +67,6 @@ constexpr std::array<Field, 5> scanner_table = {
                                              "stored points of marks; further points are only counted")),
 };
 
-bool has_encoder(const RackConveyor& track) {
-    return track.has_encoder();
-}
-bool has_sender(const RackConveyor& track) {
-    return track.sender.has_value();
-}
-bool has_parts(const RackConveyor& track) {
-    return track.passing.has_value();
-}
-
-constexpr std::array<ConveyorSignal, 5> track_end_table = {{
-    {"enc_a", "enc#_a", "encoder line A", has_encoder, "counts_per_{u} other than 0"},
-    {"enc_b", "enc#_b", "encoder line B", has_encoder, "counts_per_{u} other than 0"},
-    {"mcbsp", "mcbsp", "the sender's last complete word", has_sender, "a section sender", 32},
-    {"mcbsp_frame", "mcbsp_frame", "toggles when a complete word equals the previous one", has_sender,
-     "a section sender"},
-    {"sensor_n", "start_n", "light barrier: low while a part is there", has_parts, "a section parts"},
-}};
-
 class MarkingReader {
   public:
     MarkingReader(RackConfig& config, Problems& problems) : config_(config), problems_(problems) {}
@@ -281,9 +262,6 @@ std::span<const Field> passing_fields() {
 }
 std::span<const Field> scanner_fields() {
     return scanner_table;
-}
-std::span<const ConveyorSignal> track_ends() {
-    return track_end_table;
 }
 
 void read_marking(const TomlNode* belts, const TomlNode* tables, const TomlNode* scanners, RackConfig& config,

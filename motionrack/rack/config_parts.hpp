@@ -1,4 +1,4 @@
-// Shared parts of the rack file reader: tables of keys, signals of an axis, and the steps of reading.
+// Shared parts of the rack file reader: tables of keys, and the steps of reading.
 #pragma once
 
 #include <array>
@@ -33,32 +33,6 @@ std::span<const Field> scanner_fields();      ///< [scanner.NAME] into RackScann
 std::span<const Field> controller_fields();   ///< [controller] into RackController
 std::span<const Field> safety_fields();       ///< [safety] into RackSafety
 
-/// A signal of an axis' parts, as an end of a wire.
-struct AxisSignal {
-    std::string_view name;
-    PinDirection direction;
-    std::string_view doc;
-    bool (*present)(const RackAxis& axis);
-    std::string_view needs;  ///< rack file entry that the signal requires
-    double volts = 0;        ///< volts per level unit (analog signals): see PinType
-};
-std::span<const AxisSignal> axis_ends();
-const AxisSignal* find_axis_end(std::string_view name);
-
-/// An output signal of a conveyor, as an end of a wire. If the card does not override it, the default rule connects it
-/// to `pin` of its card, with "#" for the encoder's number.
-struct ConveyorSignal {
-    std::string_view name;
-    std::string_view pin;
-    std::string_view doc;
-    bool (*present)(const RackConveyor& track);
-    std::string_view needs;
-    int bits = 1;  ///< see PinType
-};
-std::span<const ConveyorSignal> track_ends();
-
-inline constexpr std::string_view estop_doc = "the emergency stop button: low while it is pressed";
-inline constexpr std::string_view probe_doc = "the touch probe: high while it touches";
 inline constexpr std::array<std::string_view, 6> axis_names = {"X", "Y", "Z", "A", "B", "C"};
 inline constexpr int slot_count = 21;
 

@@ -4,6 +4,9 @@
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/fields_table.hpp>
+#include <motionrack/rack/part_catalogue.hpp>
+#include <utility>
+#include <vector>
 
 namespace motionrack::rack {
 namespace {
@@ -43,6 +46,15 @@ std::string card_type_text(const CardType& type) {
                      type.channel_pins.size(), type.channels[0]);
 }
 
+std::vector<DeclaredSignal> declared_ends() {
+    std::vector<DeclaredSignal> out;
+    for (const PartKind* kind : part_kinds()) {
+        if (kind->signals == nullptr) continue;
+        for (DeclaredSignal& one : kind->signals->declared()) out.push_back(std::move(one));
+    }
+    return out;
+}
+
 std::string wires_text() {
     std::string out =
         "## [wires]\nOne line a wire, only for what differs from the default rule: the input left, the output that "
@@ -59,16 +71,11 @@ std::string wires_text() {
         "\"motion.xecb\" = \"X.enc_a\"\n```\n\n"
         "Pins of cards are written CARD.pin (below), the ends of an axis' parts NAME.end:\n\n"
         "| end | direction | meaning | there if |\n|---|---|---|---|\n";
-    for (const AxisSignal& end : axis_ends()) {
-        out += fmt::format("| `X.{}` | {} | {} | {} |\n", end.name,
-                           end.direction == PinDirection::input ? "input" : "output", end.doc,
-                           end.needs.empty() ? "always" : with_unit(end.needs, "mm"));
-    }
-    for (const ConveyorSignal& end : track_ends())
-        out += fmt::format("| `NAME.{}` | output | of a belt or table: {} | {} |\n", end.name, end.doc,
-                           with_unit(end.needs, "mm"));
-    out += fmt::format("| `probe` | output | {} | the section `[probe]` is there |\n", probe_doc);
-    return out + fmt::format("| `estop` | output | {} | always |\n\n", estop_doc);
+    for (const DeclaredSignal& one : declared_ends())
+        out += fmt::format("| `{}` | {} | {} | {} |\n", one.name,
+                           one.direction == PinDirection::input ? "input" : "output", one.doc,
+                           one.needs.empty() ? "always" : with_unit(one.needs, "mm"));
+    return out + '\n';
 }
 
 std::string safety_text(const RackSafety& safety) {

@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <map>
 #include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/part_catalogue.hpp>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace motionrack::rack {
 namespace {
@@ -28,37 +30,14 @@ class WireResolver {
   public:
     WireResolver(const RackConfig& config, Problems& problems) : config_(config), problems_(problems) {
         for (std::size_t i = 0; i < config.cards.size(); ++i) add_card(static_cast<int>(i));
-        for (std::size_t i = 0; i < config.axes.size(); ++i) add_axis(static_cast<int>(i));
-        for (std::size_t i = 0; i < config.tracks.size(); ++i) add_track(static_cast<int>(i));
-        if (config.probe) known_["probe"] = {{EndOwner::probe, 0, ""}, PinDirection::output, logic, {}};
-        known_["estop"] = {{EndOwner::estop, 0, ""}, PinDirection::output, logic, {}};
+        for (PartSignal& signal : part_signals(config)) add_signal(std::move(signal));
     }
 
     void default_rule() {
-        for (std::size_t i = 0; i < config_.axes.size(); ++i) {
-            const RackAxis& axis = config_.axes[i];
-            if (channel_index(config_, axis) < 0) continue;
-            const CardType& type = *find_card_type(config_.card(axis.card)->type);
-            for (const DefaultWire& wire : type.default_wires) {
-                connect(fmt::format("{}.{}{}", axis.card, axis.channel, wire.pin),
-                        fmt::format("{}.{}", axis.letter, wire.end));
-            }
-            if (!type.probe_pin.empty())
-                connect(fmt::format("{}.{}{}", axis.card, axis.channel, type.probe_pin), "probe");
-        }
-        for (const RackConveyor& track : config_.tracks)
-            for (const ConveyorSignal& end : track_ends()) {
-                if (!track.card) continue;
-                std::string pin(end.pin);
-                if (const std::size_t at = pin.find('#'); at != std::string::npos)
-                    pin.replace(at, 1, std::to_string(track.encoder));
-                connect(fmt::format("{}.{}", *track.card, pin), fmt::format("{}.{}", track.name, end.name));
-            }
-        for (const RackCard& card : config_.cards) {
-            const CardType* type = find_card_type(card.type);
-            if (type != nullptr && !type->estop_pin.empty())
-                connect(fmt::format("{}.{}", card.name, type->estop_pin), "estop");
-        }
+        for (const PartKind* kind : part_kinds())
+            if (kind->signals != nullptr && kind->signals->join_by_default != nullptr)
+                kind->signals->join_by_default(
+                    config_, [this](const std::string& pin, const std::string& signal) { connect(pin, signal); });
     }
 
     void read(const TomlNode& wires) {
@@ -112,30 +91,13 @@ class WireResolver {
         }
     }
 
-    void add_axis(int index) {
-        const RackAxis& axis = config_.axes[static_cast<std::size_t>(index)];
-        for (const AxisSignal& end : axis_ends()) {
-            KnownEnd known{
-                {EndOwner::axis, index, std::string(end.name)}, end.direction, end.volts > 0 ? voltage : logic, {}};
-            if (!end.present(axis)) {
-                known.missing =
-                    fmt::format("axis {} needs {} to have it", axis.letter, with_unit(end.needs, axis.unit()));
-            }
-            known_[fmt::format("{}.{}", axis.letter, end.name)] = std::move(known);
-        }
-    }
-
-    void add_track(int index) {
-        const RackConveyor& track = config_.tracks[static_cast<std::size_t>(index)];
-        for (const ConveyorSignal& end : track_ends()) {
-            KnownEnd known{{EndOwner::track, index, std::string(end.name)},
-                           PinDirection::output,
-                           end.bits > 1 ? number : logic,
-                           {}};
-            if (!end.present(track))
-                known.missing = fmt::format("{} needs {} to have it", track.name, with_unit(end.needs, track.unit()));
-            known_[fmt::format("{}.{}", track.name, end.name)] = std::move(known);
-        }
+    void add_signal(PartSignal signal) {
+        if (signal.fixed) return;
+        known_[signal.name] = {std::move(signal.end), signal.direction,
+                               signal.volts > 0  ? voltage
+                               : signal.bits > 1 ? number
+                                                 : logic,
+                               std::move(signal.missing)};
     }
 
     /// Adds a wire of the default rule, from the output of the two to the input; none if a part is missing.

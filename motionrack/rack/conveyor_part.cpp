@@ -1,4 +1,5 @@
-// A belt or rotary table as a part: its quantities, how its velocity is set, and its faults.
+// A belt or rotary table as a part: its quantities, how its velocity is set, its faults, and its
+// signals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +7,9 @@
 #include <cmath>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/table_part.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace motionrack::rack {
 
@@ -114,6 +118,77 @@ class ConveyorPart final : public TablePart<RunningConveyor> {
     std::string velocity_name() const { return with_unit(conveyor_velocity, running_.config.unit()); }
 };
 
+// ---- signals
+
+bool has_encoder(const RackConveyor& track) {
+    return track.has_encoder();
+}
+bool has_sender(const RackConveyor& track) {
+    return track.sender.has_value();
+}
+bool has_parts(const RackConveyor& track) {
+    return track.passing.has_value();
+}
+
+constexpr std::array<SignalRow<RackConveyor>, 5> conveyor_signals = {{
+    {"enc_a", PinDirection::output, "encoder line A", has_encoder, "counts_per_{u} other than 0"},
+    {"enc_b", PinDirection::output, "encoder line B", has_encoder, "counts_per_{u} other than 0"},
+    {"mcbsp", PinDirection::output, "the sender's last complete word", has_sender, "a section sender", 0, 32},
+    {"mcbsp_frame", PinDirection::output, "toggles when a complete word equals the previous one", has_sender,
+     "a section sender"},
+    {"sensor_n", PinDirection::output, "light barrier: low while a part is there", has_parts, "a section parts"},
+}};
+/// Pins of the card to which the default rule connects them; "#" stands for the number of the encoder input.
+constexpr std::array<std::string_view, conveyor_signals.size()> conveyor_pins = {"enc#_a", "enc#_b", "mcbsp",
+                                                                                 "mcbsp_frame", "start_n"};
+
+std::string conveyor_name_of(const RackConfig& config, std::size_t index) {
+    return config.tracks[index].name;
+}
+
+std::vector<PartSignal> signals_of_conveyors(const RackConfig& config) {
+    std::vector<PartSignal> out;
+    for (std::size_t i = 0; i < config.tracks.size(); ++i) {
+        const RackConveyor& track = config.tracks[i];
+        append_signals(conveyor_signals, track, {EndOwner::track, i, track.name, track.name, track.unit()}, out);
+    }
+    return out;
+}
+
+void join_conveyors(const RackConfig& config, const JoinPins& join) {
+    for (const RackConveyor& track : config.tracks)
+        for (std::size_t i = 0; track.card && i < conveyor_signals.size(); ++i) {
+            std::string pin(conveyor_pins[i]);
+            if (const std::size_t at = pin.find('#'); at != std::string::npos)
+                pin.replace(at, 1, std::to_string(track.encoder));
+            join(fmt::format("{}.{}", *track.card, pin), signal_name(track.name, conveyor_signals[i].name));
+        }
+}
+
+sim::WireId conveyor_wire(Rack& rack, const WireEnd& end) {
+    return rack.kernel().find_wire(rack.tracks()[static_cast<std::size_t>(end.index)].wire_name(end.pin));
+}
+
+std::vector<PartWire> wires_of_conveyors(Rack& rack) {
+    std::vector<PartWire> out;
+    for (const RunningConveyor& track : rack.tracks())
+        for (const SignalRow<RackConveyor>& row : conveyor_signals)
+            if (row.has(track.config))
+                out.push_back({signal_name(track.config.name, row.name),
+                               rack.kernel().find_wire(track.wire_name(row.name)), 1, row.bits});
+    return out;
+}
+
+constexpr PartSignals conveyor_part_signals = {
+    EndOwner::track,
+    [] { return declared_signals<RackConveyor>(conveyor_signals, "NAME", "of a belt or table: "); },
+    signals_of_conveyors,
+    conveyor_name_of,
+    wires_of_conveyors,
+    join_conveyors,
+    conveyor_wire,
+};
+
 void add_conveyor_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
     for (RunningConveyor& conveyor : rack.tracks()) parts.push_back(std::make_unique<ConveyorPart>(conveyor));
 }
@@ -121,6 +196,6 @@ void add_conveyor_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 }  // namespace
 
 constinit const PartKind conveyor_part_kind = {"conveyor", add_conveyor_parts, declared<conveyor_quantities>,
-                                               names_of<conveyor_faults>};
+                                               names_of<conveyor_faults>, &conveyor_part_signals};
 
 }  // namespace motionrack::rack

@@ -1,23 +1,26 @@
-// The kinds of part of a rack: one line per kind. Lists of targets and of quantities keep this order.
+// The kinds of part of a rack: one line per kind. Lists of targets, of quantities and of signals keep this order.
 #include <array>
 #include <motionrack/rack/part_catalogue.hpp>
 
 namespace motionrack::rack {
 
 std::span<const PartKind* const> part_kinds() {
-    static constexpr std::array<const PartKind*, 5> kinds = {
+    static constexpr std::array<const PartKind*, 7> kinds = {
         &axis_part_kind,      //
         &card_part_kind,      //
         &stage_part_kind,     //
         &conveyor_part_kind,  //
-        &scanner_part_kind,
+        &scanner_part_kind,   //
+        &probe_part_kind,     //
+        &estop_part_kind,
     };
     return kinds;
 }
 
 std::vector<std::unique_ptr<Part>> make_parts(Rack& rack) {
     std::vector<std::unique_ptr<Part>> out;
-    for (const PartKind* kind : part_kinds()) kind->add(rack, out);
+    for (const PartKind* kind : part_kinds())
+        if (kind->add != nullptr) kind->add(rack, out);
     return out;
 }
 

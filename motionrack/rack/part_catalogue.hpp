@@ -1,9 +1,10 @@
-// Catalogue of the kinds of part: one line per kind in part_catalogue.cpp, and one file per kind, which has its table
-// of quantities.
+// Catalogue of the kinds of part: one line per kind in part_catalogue.cpp, and one file per kind, which has its tables:
+// quantities, faults, signals.
 #pragma once
 
 #include <memory>
 #include <motionrack/rack/part.hpp>
+#include <motionrack/rack/part_signals.hpp>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -20,10 +21,11 @@ struct DeclaredQuantity {
 
 struct PartKind {
     std::string_view name;  ///< "axis"
-    /// Appends the rack's parts of this kind, in the order of the rack file.
+    /// Appends the rack's parts of this kind, in the order of the rack file. nullptr: the kind has only signals.
     void (*add)(Rack& rack, std::vector<std::unique_ptr<Part>>& parts);
     std::vector<DeclaredQuantity> (*quantities)();   ///< nullptr: each part of the kind has its own
     std::vector<std::string_view> (*fault_names)();  ///< nullptr: none, or each part of the kind has its own
+    const PartSignals* signals = nullptr;            ///< nullptr: no end of a wire
 };
 
 extern const PartKind axis_part_kind;
@@ -31,6 +33,8 @@ extern const PartKind card_part_kind;
 extern const PartKind stage_part_kind;
 extern const PartKind conveyor_part_kind;
 extern const PartKind scanner_part_kind;
+extern const PartKind probe_part_kind;
+extern const PartKind estop_part_kind;
 
 std::span<const PartKind* const> part_kinds();
 

@@ -166,21 +166,12 @@ void Rack::build_probe() {
     }
 }
 
-/// Returns the kernel's wire name of an end. Pulses and encoder tracks of an axis have none: they are links.
-std::string Rack::wire_name(const WireEnd& end) const {
-    switch (end.owner) {
-        case EndOwner::card:
-            return config_.cards[static_cast<std::size_t>(end.index)].name + "." + end.pin;
-        case EndOwner::axis:
-            return std::string(1, config_.axes[static_cast<std::size_t>(end.index)].letter) + "." + end.pin;
-        case EndOwner::track:
-            return tracks_[static_cast<std::size_t>(end.index)].wire_name(end.pin);
-        case EndOwner::estop:
-            return "estop";
-        case EndOwner::probe:
-            return "probe";
-    }
-    return {};
+/// Returns the wire of an end. Pulses of an axis have none: they are links.
+sim::WireId Rack::wire_of(const WireEnd& end) {
+    if (end.owner != EndOwner::card)
+        if (const PartSignals& signals = signals_of(end.owner); signals.wire_of != nullptr)
+            return signals.wire_of(*this, end);
+    return kernel_.find_wire(config_.end_name(end));
 }
 
 void Rack::build_wires() {
@@ -188,15 +179,15 @@ void Rack::build_wires() {
     junctions_ = std::make_unique<sim::WireConnections>(kernel_, "wiring");
     for (const RackWire& wire : config_.wires) {
         if (wire.link) continue;
-        const sim::WireId from = output_wire(wire.from);
-        const sim::WireId to = kernel_.find_wire(wire_name(wire.to));
+        const sim::WireId from = wire_of(wire.from);
+        const sim::WireId to = wire_of(wire.to);
         MOTIONRACK_ASSERT(from != sim::WireId::none && to != sim::WireId::none);
         junctions_->join(from, to, is_contact(wire.to));
     }
     // A contact input without a wire carries no current.
     const sim::WireId no_current = config_.open.empty() ? sim::WireId::none : kernel_.add_wire("no_current", 0);
     for (const WireEnd& input : config_.open)
-        if (is_contact(input)) junctions_->join(no_current, kernel_.find_wire(wire_name(input)), true);
+        if (is_contact(input)) junctions_->join(no_current, wire_of(input), true);
 }
 
 CardProcessor& Rack::processor_of(const std::string& card) {
@@ -231,24 +222,6 @@ void Rack::build_scanners() {
     for (const RackScanner& scanner : config_.scanners)
         scanners_.push_back(
             build_scanner(kernel_, scanner, scanner.conveyor ? &track(*scanner.conveyor)->drive->track() : nullptr));
-}
-
-/// Returns the wire of an output. The tracks of an encoder become wires when the first card needs them.
-sim::WireId Rack::output_wire(const WireEnd& end) {
-    if (end.owner != EndOwner::axis || (end.pin != "enc_a" && end.pin != "enc_b"))
-        return kernel_.find_wire(wire_name(end));
-    RunningAxis& axis = axes_[static_cast<std::size_t>(end.index)];
-    const std::string name = fmt::format("{}.lines", axis.config.letter);
-    if (!axis.lines) {
-        parts::LineEncoderSettings settings;
-        settings.counts_per_turn = settings.position_per_turn = axis.config.encoder_counts_per_rev;
-        // A pulse may be many counts, and a rotor can jump when it locks elsewhere. Their edges keep a minimum
-        // distance, and none is lost.
-        settings.min_edge_interval = nanoseconds(200);
-        settings.too_quick = parts::TooQuick::loses_by_fault;
-        axis.lines = std::make_unique<parts::LineEncoder>(kernel_, name, axis.machine->encoder(), settings);
-    }
-    return kernel_.find_wire(name + (end.pin == "enc_a" ? ".a" : ".b"));
 }
 
 bool Rack::is_contact(const WireEnd& end) const {

@@ -121,9 +121,8 @@ class Rack {
     CardProcessor& processor_of(const std::string& card);
     void join_links();
     void build_wires();
-    std::string wire_name(const WireEnd& end) const;
+    sim::WireId wire_of(const WireEnd& end);
     bool is_contact(const WireEnd& end) const;
-    sim::WireId output_wire(const WireEnd& end);
 
     RackConfig config_;
     sim::Kernel kernel_;

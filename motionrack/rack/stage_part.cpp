@@ -1,8 +1,12 @@
-// A stage as a part: its quantities and faults.
+// A stage as a part: its quantities, faults and signals.
+#include <fmt/format.h>
+
 #include <array>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/table_part.hpp>
+#include <string>
+#include <vector>
 
 namespace motionrack::rack {
 
@@ -85,6 +89,50 @@ class StagePart final : public TablePart<RunningStage> {
     }
 };
 
+// ---- signals: the rack itself connects them
+
+constexpr std::array<SignalRow<RackStage>, 4> stage_signals = {{
+    // its unit is that of parts::LinearStage
+    {"drive", PinDirection::input, "voltage at its amplifier, V", nullptr, {}, 1e-6, 1, true},
+    {"scale.a", PinDirection::output, "line A of its scale", nullptr, {}, 0, 1, true},
+    {"scale.b", PinDirection::output, "line B of its scale", nullptr, {}, 0, 1, true},
+    {"scale.z", PinDirection::output, "reference mark of its scale", nullptr, {}, 0, 1, true},
+}};
+
+std::string stage_name_of(const RackConfig& config, std::size_t index) {
+    return config.stages[index].name;
+}
+
+std::vector<PartSignal> signals_of_stages(const RackConfig& config) {
+    std::vector<PartSignal> out;
+    for (std::size_t i = 0; i < config.stages.size(); ++i) {
+        const std::string& name = config.stages[i].name;
+        append_signals(stage_signals, config.stages[i], {EndOwner::stage, i, name, "stage " + name, "mm"}, out);
+    }
+    return out;
+}
+
+std::vector<PartWire> wires_of_stages(Rack& rack) {
+    std::vector<PartWire> out;
+    for (const RackStage& stage : rack.config().stages)
+        for (const SignalRow<RackStage>& row : stage_signals) {
+            PartWire& wire = out.emplace_back();
+            wire.name = signal_name(stage.name, row.name);
+            wire.id = rack.kernel().find_wire(wire.name);
+            if (row.volts > 0) wire.unit = row.volts;
+            if (row.direction == PinDirection::output)
+                wire.refused = fmt::format(
+                    "{} cannot be forced: it is the output of the scale. Force the decoder's input", wire.name);
+        }
+    return out;
+}
+
+constexpr PartSignals stage_part_signals = {
+    EndOwner::stage,   [] { return declared_signals<RackStage>(stage_signals, "NAME"); },
+    signals_of_stages, stage_name_of,
+    wires_of_stages,
+};
+
 void add_stage_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
     for (RunningStage& stage : rack.stages()) parts.push_back(std::make_unique<StagePart>(stage));
 }
@@ -92,6 +140,6 @@ void add_stage_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 }  // namespace
 
 constinit const PartKind stage_part_kind = {"stage", add_stage_parts, declared<stage_quantities>,
-                                            names_of<stage_faults>};
+                                            names_of<stage_faults>, &stage_part_signals};
 
 }  // namespace motionrack::rack

@@ -2,15 +2,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/part_catalogue.hpp>
 #include <motionrack/rack/wire_access.hpp>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
 
 namespace motionrack::rack {
 
 namespace {
-constexpr double max_volts = 15;           // limit of an analog input
-constexpr double stage_drive_unit = 1e-6;  // V, see parts::LinearStage
+constexpr double max_volts = 15;  // limit of an analog input
 }  // namespace
 
 std::map<std::string, double> volts_of_wires(const RackConfig& config) {
@@ -18,23 +17,14 @@ std::map<std::string, double> volts_of_wires(const RackConfig& config) {
     for (const RackCard& card : config.cards)
         for (const CardPin& pin : pins_of(card))
             if (pin.volts > 0) out[card.name + "." + pin.name] = pin.volts;
-    for (const RackAxis& axis : config.axes)
-        for (const AxisSignal& end : axis_ends())
-            if (end.volts > 0 && end.present(axis)) out[fmt::format("{}.{}", axis.letter, end.name)] = end.volts;
-    for (const RackStage& stage : config.stages) out[stage.name + ".drive"] = stage_drive_unit;
+    for (const PartSignal& signal : part_signals(config))
+        if (signal.volts > 0 && signal.missing.empty()) out[signal.name] = signal.volts;
     return out;
 }
 
 WireAccess::WireAccess(Rack& rack) : rack_(rack) {
-    wires_["estop"] = {WireKind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, 1, {}};
-    if (rack_.config().probe) wires_["probe"] = {WireKind::plain, rack_.kernel().find_wire("probe"), -1, 0, 1, 1, {}};
-    for (const char* contact : {"estop1", "estop2", "door"})
-        if (const sim::WireId wire = rack_.kernel().find_wire(contact); wire != sim::WireId::none)
-            wires_[contact] = {WireKind::plain, wire, -1, 0, 1, 1, {}};
     add_cards();
-    add_axes();
-    add_tracks();
-    add_stages();
+    add_parts();
     add_encoders();
     add_ideal_encoders();
     add_rest();
@@ -44,69 +34,26 @@ void WireAccess::add_cards() {
     for (const RackCard& card : rack_.config().cards)
         for (const CardPin& pin : pins_of(card)) {
             const std::string name = card.name + "." + pin.name;
-            AccessibleWire wire{WireKind::plain, rack_.kernel().find_wire(name), -1, 0, 1, pin.bits, {}};
+            PartWire wire{name, rack_.kernel().find_wire(name), 1, pin.bits};
             if (pin.volts > 0) wire.unit = pin.volts;
             if (pin.direction == PinDirection::output)
                 wire.refused = fmt::format(
                     "{} is an output of the card; only inputs, switches and the emergency stop can be forced", name);
-            wires_[name] = std::move(wire);
+            add(std::move(wire));
         }
     for (const auto& card : rack_.cards())
-        for (const std::string& name : card->shared_wires())
-            wires_[name] = {WireKind::plain, rack_.kernel().find_wire(name), -1, 0, 1, 1, {}};
+        for (const std::string& name : card->shared_wires()) add({name, rack_.kernel().find_wire(name)});
 }
 
-void WireAccess::add_axes() {
-    const RackConfig& config = rack_.config();
-    for (std::size_t i = 0; i < config.axes.size(); ++i)
-        for (const AxisSignal& end : axis_ends()) {
-            if (!end.present(config.axes[i])) continue;
-            const std::string name = fmt::format("{}.{}", config.axes[i].letter, end.name);
-            AccessibleWire wire{WireKind::plain, rack_.kernel().find_wire(name), static_cast<int>(i), 0, 1, 1, {}};
-            if (end.name == "enc_a" || end.name == "enc_b") {
-                wire.kind = WireKind::track;
-                wire.which = end.name == "enc_b";
-                wire.refused = fmt::format(
-                    "{} cannot be forced: it is the output of the encoder. Force the connected input of a card", name);
-            } else if (end.volts > 0) {
-                wire.unit = end.volts;
-            } else if (end.direction == PinDirection::input) {
-                wire.kind = WireKind::pulses;
-                wire.refused = fmt::format(
-                    "{} cannot be forced: it follows all pulses of a channel. Move it by the card or by set_quantity",
-                    name);
-                for (const RackWire& joined : config.wires)
-                    if (config.end_name(joined.to) == name)
-                        wire.id = rack_.kernel().find_wire(config.end_name(joined.from));
-            }
-            wires_[name] = std::move(wire);
-        }
+void WireAccess::add_parts() {
+    for (const PartKind* kind : part_kinds())
+        if (kind->signals != nullptr)
+            for (PartWire& wire : kind->signals->wires(rack_)) add(std::move(wire));
 }
 
-void WireAccess::add_tracks() {
-    for (const RunningConveyor& track : rack_.tracks())
-        for (const ConveyorSignal& end : track_ends())
-            if (end.present(track.config))
-                wires_[fmt::format("{}.{}", track.config.name, end.name)] = {
-                    WireKind::plain, rack_.kernel().find_wire(track.wire_name(end.name)), -1, 0, 1, end.bits, {}};
-}
-
-void WireAccess::add_stages() {
-    for (const RackStage& stage : rack_.config().stages) {
-        const std::string drive = stage.name + ".drive";
-        wires_[drive] = {WireKind::plain, rack_.kernel().find_wire(drive), -1, 0, stage_drive_unit, 1, {}};
-        for (const char* line : {".scale.a", ".scale.b", ".scale.z"}) {
-            const std::string name = stage.name + line;
-            wires_[name] = {
-                WireKind::plain,
-                rack_.kernel().find_wire(name),
-                -1,
-                0,
-                1,
-                1,
-                fmt::format("{} cannot be forced: it is the output of the scale. Force the decoder's input", name)};
-        }
-    }
+void WireAccess::add(PartWire wire) {
+    std::string name = wire.name;
+    wires_[std::move(name)].wire = std::move(wire);
 }
 
 /// The inputs at the end of a link are not separate wires unless they are forced.
@@ -124,8 +71,7 @@ void WireAccess::add_encoders() {
                                       [&](const EncoderInput& known) { return known.link == link; });
             if (input == encoders_.end()) input = encoders_.insert(input, EncoderInput{link, 0});
             AccessibleWire& wire = wires_[config.end_name(joined.to)];
-            wire.kind = WireKind::counted;
-            wire.index = static_cast<int>(input - encoders_.begin());
+            wire.encoder = static_cast<int>(input - encoders_.begin());
             wire.which = (joined.from.pin == "enc_b") != link.swapped;
         }
     }
@@ -152,17 +98,17 @@ void WireAccess::add_rest() {
         const auto wire = static_cast<sim::WireId>(i);
         for (std::size_t which = 0; !kernel.wire_name(wire, which).empty(); ++which) {
             const std::string& name = kernel.wire_name(wire, which);
-            wires_.try_emplace(name, AccessibleWire{WireKind::plain, wire, -1, 0, 1, kernel.wire_bits(wire),
-                                                    name + " is the output of a card or part; it can only be read"});
+            wires_.try_emplace(name, AccessibleWire{{name, wire, 1, kernel.wire_bits(wire),
+                                                     name + " is the output of a card or part; it can only be read"}});
         }
     }
 }
 
 std::vector<WireAccess::Named> WireAccess::names() const {
     std::vector<Named> out;
-    for (const auto& [name, wire] : wires_) {
-        const bool recorded =
-            wire.kind == WireKind::plain ? wire.id != sim::WireId::none : wire.kind != WireKind::counted;
+    for (const auto& [name, known] : wires_) {
+        const PartWire& wire = known.wire;
+        const bool recorded = known.encoder < 0 && (wire.id != sim::WireId::none || wire.from_edges);
         out.push_back({name, wire.unit != 1, wire.refused.empty(), recorded, wire.bits});
     }
     return out;
@@ -177,8 +123,7 @@ void WireAccess::add_ideal_encoders() {
         encoders_.push_back({{no_axis, static_cast<int>(i), 0, false}, 0});
         for (std::size_t which = 0; which < pins.size(); ++which) {
             AccessibleWire& wire = wires_[fmt::format("{}.{}", card.name(), pins[which])];
-            wire.kind = WireKind::counted;
-            wire.index = static_cast<int>(encoders_.size()) - 1;
+            wire.encoder = static_cast<int>(encoders_.size()) - 1;
             wire.which = static_cast<int>(which);
         }
     }
@@ -195,34 +140,32 @@ unsigned WireAccess::lines_at(const EncoderInput& input) const {
 }
 
 Result<double> WireAccess::get(std::string_view name) const {
-    const AccessibleWire* wire = find(name);
-    if (wire == nullptr) return unknown(name);
+    const AccessibleWire* known = find(name);
+    if (known == nullptr) return unknown(name);
+    const PartWire& wire = known->wire;
     const sim::Kernel& kernel = rack_.kernel();
-    if (wire->kind == WireKind::track) {
-        const parts::QuadratureLevels lines =
-            rack_.axes()[static_cast<std::size_t>(wire->index)].machine->encoder_lines(kernel.now());
-        return wire->which == 0 ? lines.a : lines.b;
+    if (wire.level) return wire.level(kernel.now());
+    if (known->encoder >= 0) {
+        const EncoderInput& input = encoders_[static_cast<std::size_t>(known->encoder)];
+        if (input.driven == 0) return lines_at(input) >> known->which & 1u;
     }
-    if (wire->kind == WireKind::counted) {
-        const EncoderInput& input = encoders_[static_cast<std::size_t>(wire->index)];
-        if (input.driven == 0) return lines_at(input) >> wire->which & 1u;
-    }
-    return wire->id == sim::WireId::none ? 0 : kernel.level(wire->id) * wire->unit;
+    return wire.id == sim::WireId::none ? 0 : kernel.level(wire.id) * wire.unit;
 }
 
 Result<void> WireAccess::check(std::string_view name, double value) const {
-    const AccessibleWire* wire = find(name);
-    if (wire == nullptr) return unknown(name);
-    if (!wire->refused.empty()) return fail(ErrorKind::refused, wire->refused + ". Nothing was done.");
+    const AccessibleWire* known = find(name);
+    if (known == nullptr) return unknown(name);
+    const PartWire& wire = known->wire;
+    if (!wire.refused.empty()) return fail(ErrorKind::refused, wire.refused + ". Nothing was done.");
     if (std::isnan(value)) return {};
-    if (wire->unit != 1) {
+    if (wire.unit != 1) {
         if (std::fabs(value) <= max_volts) return {};
         return fail(ErrorKind::refused,
                     fmt::format("{} cannot be driven with {} V; it takes -{} .. {} V. Nothing was done.", name, value,
                                 max_volts, max_volts));
     }
-    if (wire->bits > 1) {
-        const double half_range = std::ldexp(1.0, wire->bits - 1);
+    if (wire.bits > 1) {
+        const double half_range = std::ldexp(1.0, wire.bits - 1);
         if (value >= -half_range && value < half_range && value == std::floor(value)) return {};
         return fail(
             ErrorKind::refused,
@@ -239,39 +182,40 @@ Result<void> WireAccess::check(std::string_view name, double value) const {
 
 Result<void> WireAccess::force(std::string_view name, double value) {
     MOTIONRACK_CHECK(check(name, value));
-    const AccessibleWire& wire = *find(name);
+    const AccessibleWire& known = *find(name);
+    const PartWire& wire = known.wire;
     const bool released = std::isnan(value);
     const int level = released ? 0 : static_cast<int>(std::floor(value / wire.unit + 0.5));
     rack_.input_log().add({rack_.kernel().now(), released ? sim::InputKind::release_wire : sim::InputKind::force_wire,
                            static_cast<std::uint16_t>(wire.id), 0, static_cast<std::uint16_t>(level != 0),
                            static_cast<double>(level)});
     if (released)
-        release(wire);
+        release(known);
     else
-        drive(wire, level);
+        drive(known, level);
     rack_.kernel().settle();
     return {};
 }
 
-void WireAccess::drive(const AccessibleWire& wire, int level) {
+void WireAccess::drive(const AccessibleWire& known, int level) {
     sim::Kernel& kernel = rack_.kernel();
-    if (wire.kind == WireKind::counted) {
-        EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
+    if (known.encoder >= 0) {
+        EncoderInput& input = encoders_[static_cast<std::size_t>(known.encoder)];
         if (input.driven == 0) {
             // Its lines keep their levels, so that disconnecting it counts nothing.
             rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->take_encoder(input.link.channel, true);
             kernel.settle();
         }
-        input.driven |= 1u << wire.which;
+        input.driven |= 1u << known.which;
     }
-    kernel.force(wire.id, level);
+    kernel.force(known.wire.id, level);
 }
 
-void WireAccess::release(const AccessibleWire& wire) {
-    if (wire.kind != WireKind::counted) return rack_.kernel().release(wire.id);
-    EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
-    if ((input.driven & 1u << wire.which) == 0) return;
-    input.driven &= ~(1u << wire.which);
+void WireAccess::release(const AccessibleWire& known) {
+    if (known.encoder < 0) return rack_.kernel().release(known.wire.id);
+    EncoderInput& input = encoders_[static_cast<std::size_t>(known.encoder)];
+    if ((input.driven & 1u << known.which) == 0) return;
+    input.driven &= ~(1u << known.which);
     if (input.driven != 0) return;
     rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->take_encoder(input.link.channel, false);
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <map>
+#include <motionrack/rack/part_signals.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <string>
 #include <string_view>
@@ -43,20 +44,10 @@ class WireAccess {
     void copy_from(const WireAccess& other) { encoders_ = other.encoders_; }
 
   private:
-    enum class WireKind : std::uint8_t {
-        plain,    ///< a wire of the kernel
-        counted,  ///< a channel input to which an encoder is connected as a unit
-        track,    ///< an output of an encoder
-        pulses    ///< an input of a motor
-    };
     struct AccessibleWire {
-        WireKind kind = WireKind::plain;
-        sim::WireId id = sim::WireId::none;  ///< plain, counted; pulses: the pin that drives the motor, if any
-        int index = -1;                      ///< counted: index in encoders_; track: index of the axis
-        int which = 0;                       ///< 0: A, 1: B
-        double unit = 1;                     ///< volts per level unit (analog pins)
-        int bits = 1;                        ///< width of a wire that carries a whole number
-        std::string refused;                 ///< reason why it cannot be forced; empty: it can
+        PartWire wire;
+        int encoder = -1;  ///< index in encoders_, if an encoder is connected to this channel input as a unit
+        int which = 0;     ///< 0: A, 1: B
     };
     static constexpr int no_axis = -1;  ///< ideal motor of a card
     /// An encoder connected to a channel.
@@ -66,17 +57,16 @@ class WireAccess {
     };
 
     void add_cards();
-    void add_axes();
-    void add_tracks();
-    void add_stages();
+    void add_parts();
+    void add(PartWire wire);
     void add_encoders();
     void add_ideal_encoders();
     void add_rest();
     const AccessibleWire* find(std::string_view name) const;
     tl::unexpected<Error> unknown(std::string_view name) const;
     unsigned lines_at(const EncoderInput& input) const;
-    void drive(const AccessibleWire& wire, int level);
-    void release(const AccessibleWire& wire);
+    void drive(const AccessibleWire& known, int level);
+    void release(const AccessibleWire& known);
 
     Rack& rack_;
     std::map<std::string, AccessibleWire, std::less<>> wires_;

@@ -13,6 +13,7 @@
 #include <limits>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/part_catalogue.hpp>
 #include <motionrack/rack/template.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>
 #include <set>
@@ -239,18 +240,24 @@ TEST(RackReference, HasEveryKeyPinAndEnd) {
                 EXPECT_THAT(page, HasSubstr(fmt::format("`{}`", type.chip_pins[i].name)));
             }
     }
-    for (const AxisSignal& end : axis_ends()) EXPECT_THAT(page, HasSubstr(fmt::format("`X.{}`", end.name)));
-    for (const ConveyorSignal& end : track_ends()) EXPECT_THAT(page, HasSubstr(fmt::format("`NAME.{}`", end.name)));
+    std::vector<std::string> ends;
+    for (const PartKind* kind : part_kinds())
+        if (kind->signals != nullptr)
+            for (const DeclaredSignal& one : kind->signals->declared()) ends.push_back(one.name);
+    for (const std::string& end : ends) EXPECT_THAT(page, HasSubstr(fmt::format("| `{}` |", end)));
+    EXPECT_THAT(ends, testing::IsSupersetOf({"X.step", "X.cam", "NAME.enc_a", "NAME.sensor_n", "probe", "estop"}));
 }
 
 TEST(CardTypes, HaveUniquePinsAndChoicesThatTheReaderKnows) {
+    std::set<std::string> ends;
+    for (const DeclaredSignal& one : axis_part_kind.signals->declared()) ends.insert(one.name);
     for (const CardPlugin* plugin : card_plugins()) {
         const CardType& type = plugin->type;
         std::set<std::string> names;
         for (const CardPin& pin : pins_of(type)) EXPECT_TRUE(names.insert(pin.name).second) << pin.name;
         EXPECT_EQ(find_card_type(type.name), &type);
         for (const DefaultWire& wire : type.default_wires) {
-            EXPECT_NE(find_axis_end(wire.end), nullptr);
+            EXPECT_EQ(ends.count(fmt::format("X.{}", wire.end)), 1U) << wire.end;
             EXPECT_EQ(names.count(std::string(type.channel_name(0)).append(wire.pin)), 1U);
         }
         const auto& choices = card_fields()[0].choices;
