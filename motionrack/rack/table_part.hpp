@@ -1,6 +1,7 @@
 // A part whose quantities and faults are the rows of two tables. Only the files of parts (*_part.cpp) use it.
 #pragma once
 
+#include <motionrack/base/result.hpp>
 #include <motionrack/rack/part.hpp>
 #include <motionrack/rack/part_catalogue.hpp>
 #include <motionrack/rack/toml_reader.hpp>
@@ -38,6 +39,7 @@ struct FaultRow {
 /// Limits of faults that several kinds of part have.
 inline constexpr double max_wrong_levels = 1e6, max_edge_delay_s = 1, max_factor = 1000;
 
+/// Returns nullptr if no row has that name.
 template <class Row>
 const Row* find_row(std::span<const Row> rows, std::string_view name) {
     for (const Row& row : rows)
@@ -73,20 +75,32 @@ class TablePart : public Part {
         for (const FaultRow<Running>& row : faults_) out.push_back(row.name);
         return out;
     }
-    bool can_have(std::string_view fault) const final { return find_row(faults_, fault)->device(running_).has_value(); }
+    bool can_have(std::string_view fault) const final {
+        const FaultRow<Running>* row = find_row(faults_, fault);
+        return row != nullptr && row->device(running_).has_value();
+    }
     FaultRange fault_range(std::string_view fault) const override {
-        const FaultRow<Running>& row = *find_row(faults_, fault);
+        const FaultRow<Running>& row = known_row(fault);
         return {std::string(row.unit), row.doc, row.min, row.max_of == nullptr ? row.max : row.max_of(running_)};
     }
-    sim::DeviceId device_of(std::string_view fault) const final { return *find_row(faults_, fault)->device(running_); }
+    sim::DeviceId device_of(std::string_view fault) const final {
+        const std::optional<sim::DeviceId> device = known_row(fault).device(running_);
+        MOTIONRACK_ASSERT(device.has_value());  // see can_have
+        return *device;
+    }
     bool inject(sim::Kernel& kernel, std::string_view fault, double value) final {
-        return kernel.device(device_of(fault)).fault(fault, value, kernel.now());
+        return can_have(fault) && kernel.device(device_of(fault)).fault(fault, value, kernel.now());
     }
 
   protected:
     Running& running_;
 
   private:
+    const FaultRow<Running>& known_row(std::string_view fault) const {
+        const FaultRow<Running>* row = find_row(faults_, fault);
+        MOTIONRACK_ASSERT(row != nullptr);  // names come from fault_names()
+        return *row;
+    }
     bool has(const QuantityRow<Running>& row) const { return row.present == nullptr || row.present(running_); }
 
     std::string name_;

@@ -96,5 +96,16 @@ TEST(Parts, CannotHaveTheFaultsOfWhatTheyLack) {
     EXPECT_FALSE(axis.can_have("encoder.dirt")) << "its encoder is a link, without lines";
 }
 
+TEST(Parts, CannotHaveFaultsThatTheyDoNotName) {
+    Rack rack(good(one_of_each));
+    rack.start();
+    for (const std::string_view name : {"X", "mask", "line", "head"}) {
+        Part& part = part_named(rack, name);
+        EXPECT_FALSE(part.can_have("motor.melt")) << name;
+        EXPECT_FALSE(part.inject(rack.kernel(), "motor.melt", 1)) << name;
+    }
+    EXPECT_FALSE(part_named(rack, "X").inject(rack.kernel(), "motor.load", 1)) << "a stepping motor has no such fault";
+}
+
 }  // namespace
 }  // namespace motionrack::rack
