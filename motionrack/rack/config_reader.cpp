@@ -6,19 +6,28 @@
 #include <iterator>
 #include <motionrack/base/read_whole_file.hpp>
 #include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/part_catalogue.hpp>
 
 namespace motionrack::rack {
 namespace {
 
-constexpr std::array<std::string_view, 11> top_level = {"rack",  "card",    "axis",       "probe",  "stage", "belt",
-                                                        "table", "scanner", "controller", "safety", "wires"};
 constexpr std::array<std::string_view, 4> axis_tables = {"motor", "servo", "switches", "homing"};
+
+/// Sections at the top level of a file.
+std::vector<std::string_view> top_level_keys() {
+    std::vector<std::string_view> out = {"rack", "card"};
+    for (const PartKind* kind : part_kinds())
+        if (kind->sections != nullptr) out.insert(out.end(), kind->sections->keys.begin(), kind->sections->keys.end());
+    out.insert(out.end(), {"controller", "safety", "wires"});
+    return out;
+}
 
 class RackReader {
   public:
     RackReader(const TomlNode& root, Problems& problems) : root_(root), problems_(problems) {}
 
     RackConfig read() {
+        const std::vector<std::string_view> top_level = top_level_keys();
         for (const TomlNode& node : root_.children) {
             if (std::find(top_level.begin(), top_level.end(), node.key) != top_level.end()) continue;
             const std::string hint = problems_.wants_hints() ? did_you_mean(node.key, top_level) : std::string();
@@ -36,9 +45,11 @@ class RackReader {
         read_cards();
         read_axes();
         check_axes(config_, sources_, problems_);
-        if (const TomlNode* node = table("probe")) read_probe(*node, config_, problems_);
-        if (const TomlNode* stages = table("stage")) read_stages(*stages, config_, problems_);
-        read_marking(table("belt"), table("table"), table("scanner"), config_, problems_);
+        for (const PartKind* kind : part_kinds()) {
+            if (kind->sections == nullptr || kind->sections->read == nullptr) continue;
+            for (const std::string_view key : kind->sections->keys)
+                if (const TomlNode* node = table(key)) kind->sections->read(*node, config_, problems_);
+        }
         resolve_wires(config_, table("wires"), problems_);
         return std::move(config_);
     }
@@ -47,16 +58,7 @@ class RackReader {
     /// Returns the top-level table of that name; nullptr if it is missing or not a table.
     const TomlNode* table(std::string_view name) {
         const TomlNode* node = root_.find(name);
-        return node != nullptr && is_table(*node, std::string(name)) ? node : nullptr;
-    }
-
-    bool is_table(const TomlNode& node, const std::string& path) {
-        if (node.type == TomlType::table) return true;
-        problems_.error(
-            node.value_location,
-            fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.", path,
-                        type_name(node.type), path));
-        return false;
+        return node != nullptr && is_table(*node, std::string(name), problems_) ? node : nullptr;
     }
 
     // ---- Cards
@@ -97,7 +99,7 @@ class RackReader {
             as_table.children.back().key = "type";
             read_card_table(as_table, card);
             if (root_.find("card")->children.size() == 1 && root_.find("axis") == nullptr) alone_ = true;
-        } else if (is_table(node, "card." + printable(node.key, 40))) {
+        } else if (is_table(node, "card." + printable(node.key, 40), problems_)) {
             read_card_table(node, card);
         } else {
             card.type.clear();
@@ -193,7 +195,7 @@ class RackReader {
         if (axes == nullptr) return;
         for (const std::string_view name : axis_names) {
             if (const TomlNode* node = axes->find(name)) {
-                if (is_table(*node, "axis." + std::string(name))) read_axis(*node);
+                if (is_table(*node, "axis." + std::string(name), problems_)) read_axis(*node);
             }
         }
         for (const TomlNode& node : axes->children) {
@@ -224,20 +226,22 @@ class RackReader {
         Section section{"axis " + node.key, std::string(axis.unit()),
                         axis.kind == AxisKind::linear ? "a linear axis" : "a rotary axis", axis_tables};
         AxisSource source{&node, {}};
-        source.refused = read_fields(node, axis_fields(), &axis, section, problems_);
+        source.refused = read_fields(node, part_fields("axis.NAME"), &axis, section, problems_);
         const std::string name = section.name;
         section.also = {};
-        const auto read_sub = [&](std::string_view sub, std::span<const Field> fields, void* object) {
+        const auto read_sub = [&](std::string_view sub, void* object) {
             const TomlNode* sub_table = node.find(sub);
-            if (sub_table == nullptr || !is_table(*sub_table, fmt::format("axis.{}.{}", node.key, sub))) return;
+            if (sub_table == nullptr || !is_table(*sub_table, fmt::format("axis.{}.{}", node.key, sub), problems_))
+                return;
             section.name = fmt::format("{} of {}", sub, name);
-            const auto refused = read_fields(*sub_table, fields, object, section, problems_);
+            const auto refused =
+                read_fields(*sub_table, part_fields(fmt::format("axis.NAME.{}", sub)), object, section, problems_);
             source.refused.insert(source.refused.end(), refused.begin(), refused.end());
         };
-        read_sub("motor", motor_fields(), &axis.motor);
-        if (node.find("servo") != nullptr) read_sub("servo", servo_fields(), &axis.servo.emplace());
-        read_sub("switches", switch_fields(), &axis.switches);
-        read_sub("homing", homing_fields(), &axis.homing);
+        read_sub("motor", &axis.motor);
+        if (node.find("servo") != nullptr) read_sub("servo", &axis.servo.emplace());
+        read_sub("switches", &axis.switches);
+        read_sub("homing", &axis.homing);
         config_.axes.push_back(std::move(axis));
         sources_.push_back(std::move(source));
     }

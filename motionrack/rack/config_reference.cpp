@@ -1,6 +1,7 @@
 // Reference page of the rack file, written from the reader's tables.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/fields_table.hpp>
@@ -46,12 +47,21 @@ std::string card_type_text(const CardType& type) {
                      type.channel_pins.size(), type.channels[0]);
 }
 
+std::string section_text(const PartSection& section) {
+    const std::string doc = section.doc.empty() ? "" : fmt::format("{}\n\n", section.doc);
+    return fmt::format("## {}\n{}{}", section.title, doc,
+                       fields_table(section.fields, section.defaults(false), section.defaults(true)));
+}
+
+/// Parts that are one wire come last.
 std::vector<DeclaredSignal> declared_ends() {
     std::vector<DeclaredSignal> out;
     for (const PartKind* kind : part_kinds()) {
         if (kind->signals == nullptr) continue;
         for (DeclaredSignal& one : kind->signals->declared()) out.push_back(std::move(one));
     }
+    std::stable_partition(out.begin(), out.end(),
+                          [](const DeclaredSignal& one) { return one.name.find('.') != std::string::npos; });
     return out;
 }
 
@@ -89,8 +99,6 @@ std::string safety_text(const RackSafety& safety) {
 std::string rack_file_reference() {
     const RackConfig rack;
     const RackCard card;
-    const RackAxis linear = default_axis('X');
-    const RackAxis rotary = default_axis('A');
     std::string out =
         "# The rack file\nTOML. `motionrack new` writes one to start from. Unknown keys, wrong types and values out of "
         "range are errors; all are reported at once, with line and column. Text such as `card.c1 = \"mcx314\"` (only a "
@@ -101,73 +109,9 @@ std::string rack_file_reference() {
         "## [card.NAME]\nOne section a card; NAME is yours: letters, digits, `_`. The card types are described "
         "below.\n\n" +
         fields_table(card_fields(), &card, &card);
-    out += "## [axis.NAME]\nNAME is X, Y, Z (linear, mm) or A, B, C (rotary, degrees).\n\n" +
-           fields_table(axis_fields(), &linear, &rotary);
-    out +=
-        "## [axis.NAME.motor]\nPulses are microsteps.\n\n" + fields_table(motor_fields(), &linear.motor, &rotary.motor);
-    const RackServo servo;
-    out +=
-        "## [axis.NAME.servo]\nA servo amplifier with a DC motor and its tacho, in place of the stepping motor; with "
-        "the section, even an "
-        "empty one, the axis follows a voltage. The model is a first-order lag with a current limit.\n\n" +
-        fields_table(servo_fields(), &servo, &servo);
-    out += "## [axis.NAME.switches]\nMachine positions where they act.\n\n" +
-           fields_table(switch_fields(), &linear.switches, &rotary.switches);
-    out += "## [axis.NAME.homing]\nHow `motionrack home` finds the home switch.\n\n" +
-           fields_table(homing_fields(), &linear.homing, &rotary.homing);
-    const RackProbe probe;
-    out +=
-        "## [probe]\nA touch probe for G38.2 to G38.5 and the workpiece that it touches, in machine coordinates. "
-        "Without this section the rack has no probe. "
-        "Where an axis has one bound or none the workpiece is unbounded there; without any bound the probe touches "
-        "nothing. The axes must be on a card "
-        "of type mcx314 with `variant = \"mcx314as\"`; by default its wire `probe` leads to the input `in3` of each of "
-        "their channels.\n\n" +
-        fields_table(probe_fields(), &probe, &probe);
-    const RackStage stage;
-    const RackStageServo stage_servo;
-    out +=
-        "## [stage.NAME]\nA stage on a linear motor with a grating scale, driven by an analog output of a card of a "
-        "grating bus.\n\n" +
-        fields_table(stage_fields(), &stage, &stage);
-    out += "## [stage.NAME.scale]\n" + fields_table(scale_fields(), &stage.scale, &stage.scale);
-    out +=
-        "## [stage.NAME.servo]\nWith the section, even an empty one, the card's processor closes a loop through the "
-        "bus' frames and follows "
-        "the profile.\n\n" +
-        fields_table(stage_servo_fields(), &stage_servo, &stage_servo);
-    const RackConveyor belt;
-    RackConveyor turning;
-    turning.rotary = true;
-    out +=
-        "## [belt.NAME], [table.NAME]\nWhat moves the part under a scan head: a belt (mm) or a rotary table (degrees). "
-        "In place of its velocity `profile = [[0, 50], [0.5, 120]]`: seconds and velocities, linear between, constant "
-        "before and after. `motionrack run` and `mr_part_set` change the velocity: fault `drive.speed`.\n\n" +
-        fields_table(track_fields(), &belt, &turning);
-    const parts::SerialPositionSettings sender;
-    out +=
-        "## [belt.NAME.sender]\nWith the section, even an empty one, a position sender reads the place and gives the "
-        "card's serial input words. In "
-        "[table.NAME.sender] the same.\n\n" +
-        fields_table(sender_fields(), &sender, &sender);
-    const RackParts passing;
-    out +=
-        "## [belt.NAME.parts]\nWith the section, even an empty one, parts pass a light barrier, which starts the card. "
-        "In [table.NAME.parts] the "
-        "same.\n\n" +
-        fields_table(passing_fields(), &passing, &passing);
-    const RackScanner scanner;
-    const RackLens lens;
-    out +=
-        "## [scanner.NAME]\nMirrors, lens and laser over a part, which stores the marks; driven by a card of type "
-        "rtc5.\n\n" +
-        fields_table(scanner_fields(), &scanner, &scanner);
-    out +=
-        "## [scanner.NAME.lens]\nWith the section, even an empty one, the field is that of two mirrors and an f-theta "
-        "lens.\n\n" +
-        fields_table(lens_keys, &lens, &lens);
-    out += "## [scanner.NAME.galvo]\n" + fields_table(galvo_keys, &scanner.galvo, &scanner.galvo);
-    out += "## [scanner.NAME.laser]\n" + fields_table(laser_keys, &scanner.laser, &scanner.laser);
+    for (const PartKind* kind : part_kinds())
+        if (kind->sections != nullptr)
+            for (const PartSection& section : kind->sections->sections) out += section_text(section);
     out += "## [controller]\n" + fields_table(controller_fields(), &rack.controller, &rack.controller);
     out += safety_text(rack.safety) + wires_text();
     out += "## Card types\n\n";

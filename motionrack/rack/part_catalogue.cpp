@@ -1,4 +1,5 @@
-// The kinds of part of a rack: one line per kind. Lists of targets, of quantities and of signals keep this order.
+// The kinds of part of a rack: one line per kind. Lists of targets and of quantities, the
+// sections of the rack file's page and their reading keep this order.
 #include <array>
 #include <motionrack/rack/part_catalogue.hpp>
 
@@ -8,10 +9,10 @@ std::span<const PartKind* const> part_kinds() {
     static constexpr std::array<const PartKind*, 7> kinds = {
         &axis_part_kind,      //
         &card_part_kind,      //
+        &probe_part_kind,     //
         &stage_part_kind,     //
         &conveyor_part_kind,  //
         &scanner_part_kind,   //
-        &probe_part_kind,     //
         &estop_part_kind,
     };
     return kinds;

@@ -1,9 +1,10 @@
 // Catalogue of the kinds of part: one line per kind in part_catalogue.cpp, and one file per kind, which has its tables:
-// quantities, faults, signals.
+// quantities, faults, signals; its keys are in a file beside it.
 #pragma once
 
 #include <memory>
 #include <motionrack/rack/part.hpp>
+#include <motionrack/rack/part_sections.hpp>
 #include <motionrack/rack/part_signals.hpp>
 #include <span>
 #include <string_view>
@@ -25,15 +26,16 @@ struct PartKind {
     void (*add)(Rack& rack, std::vector<std::unique_ptr<Part>>& parts);
     std::vector<DeclaredQuantity> (*quantities)();   ///< nullptr: each part of the kind has its own
     std::vector<std::string_view> (*fault_names)();  ///< nullptr: none, or each part of the kind has its own
-    const PartSignals* signals = nullptr;            ///< nullptr: no end of a wire
+    const PartSections* sections;                    ///< sections of the rack file; nullptr: none
+    const PartSignals* signals;                      ///< nullptr: no end of a wire
 };
 
 extern const PartKind axis_part_kind;
 extern const PartKind card_part_kind;
+extern const PartKind probe_part_kind;
 extern const PartKind stage_part_kind;
 extern const PartKind conveyor_part_kind;
 extern const PartKind scanner_part_kind;
-extern const PartKind probe_part_kind;
 extern const PartKind estop_part_kind;
 
 std::span<const PartKind* const> part_kinds();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/part_sections.hpp>
 #include <motionrack/rack/template.hpp>
 
 namespace motionrack::rack {
@@ -121,18 +122,18 @@ void write_axis(Writer& out, const RackAxis& axis) {
     out.section(name, axis.kind == AxisKind::linear ? "a linear axis: mm" : "a rotary axis: degrees");
     if (axis.servo) {
         const RackServo servo;
-        out.fields(axis_fields(), &axis, &defaults, unit, {"channel", "motor_steps_per_rev", "microsteps"});
+        out.fields(part_fields("axis.NAME"), &axis, &defaults, unit, {"channel", "motor_steps_per_rev", "microsteps"});
         out.section(name + ".servo", "a servo amplifier with a DC motor and tacho in place of a stepping motor");
-        out.fields(servo_fields(), &*axis.servo, &servo, unit);
+        out.fields(part_fields("axis.NAME.servo"), &*axis.servo, &servo, unit);
     } else {
-        out.fields(axis_fields(), &axis, &defaults, unit);
+        out.fields(part_fields("axis.NAME"), &axis, &defaults, unit);
         out.section(name + ".motor", "the stepping motor; its pulses are microsteps");
-        out.fields(motor_fields(), &axis.motor, &defaults.motor, unit);
+        out.fields(part_fields("axis.NAME.motor"), &axis.motor, &defaults.motor, unit);
     }
     out.section(name + ".switches", "machine positions at which they act; an omitted switch does not exist");
-    out.fields(switch_fields(), &axis.switches, &defaults.switches, unit);
+    out.fields(part_fields("axis.NAME.switches"), &axis.switches, &defaults.switches, unit);
     out.section(name + ".homing", "how the axis finds its home switch (motionrack home)");
-    out.fields(homing_fields(), &axis.homing, &defaults.homing, unit);
+    out.fields(part_fields("axis.NAME.homing"), &axis.homing, &defaults.homing, unit);
 }
 
 /// Writes the rack and its card.
@@ -191,13 +192,13 @@ std::string marking() {
     write_head(out, config, "scan", "rtc5");
     out.section("belt.line",
                 "conveyor of the parts, by a name of your choice; [table.NAME] is a rotary table, in degrees");
-    out.fields(track_fields(), &line, &line_defaults, "mm");
+    out.fields(part_fields("belt.NAME"), &line, &line_defaults, "mm");
     out.line(
         "# profile = [[0, 0], [0.5, 100]]        # instead of the velocity: seconds and velocities, linear between");
     out.section("belt.line.parts", "parts at equal distances before a light barrier, which starts the card; optional");
-    out.fields(passing_fields(), &parts, &parts, "mm");
+    out.fields(part_fields("belt.NAME.parts"), &parts, &parts, "mm");
     out.section("scanner.head", "mirrors and laser over the belt, and the part, which stores the marks");
-    out.fields(scanner_fields(), &head, &head_defaults, "", {"bits_per_mm"});
+    out.fields(part_fields("scanner.NAME"), &head, &head_defaults, "", {"bits_per_mm"});
     out.section("scanner.head.lens", "the field's optics; optional: without it the field is linear");
     out.fields(lens_keys, &lens, &lens, "");
     out.section("scanner.head.galvo", "the mirrors");

@@ -48,18 +48,18 @@ std::vector<FieldCase> all_fields() {
     add(card_fields(), "card.m", 'X', "");
     for (const std::string_view type : card_type_names()) add(find_card_type(type)->settings, "card.m", 'X', "", type);
     for (const auto& [letter, unit] : {std::pair{'X', "mm"}, std::pair{'A', "deg"}}) {
-        add(axis_fields(), fmt::format("axis.{}", letter), letter, unit);
-        add(motor_fields(), fmt::format("axis.{}.motor", letter), letter, unit);
-        add(servo_fields(), fmt::format("axis.{}.servo", letter), letter, unit);
-        add(switch_fields(), fmt::format("axis.{}.switches", letter), letter, unit);
-        add(homing_fields(), fmt::format("axis.{}.homing", letter), letter, unit);
+        add(part_fields("axis.NAME"), fmt::format("axis.{}", letter), letter, unit);
+        add(part_fields("axis.NAME.motor"), fmt::format("axis.{}.motor", letter), letter, unit);
+        add(part_fields("axis.NAME.servo"), fmt::format("axis.{}.servo", letter), letter, unit);
+        add(part_fields("axis.NAME.switches"), fmt::format("axis.{}.switches", letter), letter, unit);
+        add(part_fields("axis.NAME.homing"), fmt::format("axis.{}.homing", letter), letter, unit);
     }
     for (const auto& [header, unit] : {std::pair{"belt.line", "mm"}, std::pair{"table.dial", "deg"}}) {
-        add(track_fields(), header, 'X', unit, "rtc5");
-        add(sender_fields(), fmt::format("{}.sender", header), 'X', unit, "rtc5");
-        add(passing_fields(), fmt::format("{}.parts", header), 'X', unit, "rtc5");
+        add(part_fields("belt.NAME"), header, 'X', unit, "rtc5");
+        add(part_fields("belt.NAME.sender"), fmt::format("{}.sender", header), 'X', unit, "rtc5");
+        add(part_fields("belt.NAME.parts"), fmt::format("{}.parts", header), 'X', unit, "rtc5");
     }
-    add(scanner_fields(), "scanner.head", 'X', "", "rtc5");
+    add(part_fields("scanner.NAME"), "scanner.head", 'X', "", "rtc5");
     add(lens_keys, "scanner.head.lens", 'X', "", "rtc5");
     add(galvo_keys, "scanner.head.galvo", 'X', "", "rtc5");
     add(laser_keys, "scanner.head.laser", 'X', "", "rtc5");

@@ -5,6 +5,7 @@
 
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/optics_fields.hpp>
+#include <motionrack/rack/part_sections.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>
 
 namespace motionrack::rack {
@@ -25,11 +26,11 @@ std::vector<SectionText> axis_sections() {
         const auto sub = [&](std::string_view name) {
             return rack_with(fmt::format("[axis.{}.{}]\n", letter, name), letter);
         };
-        out.push_back({rack_with("", letter), axis_fields(), unit});
-        out.push_back({sub("motor"), motor_fields(), unit});
-        out.push_back({sub("servo"), servo_fields(), unit});
-        out.push_back({sub("switches"), switch_fields(), unit});
-        out.push_back({sub("homing"), homing_fields(), unit});
+        out.push_back({rack_with("", letter), part_fields("axis.NAME"), unit});
+        out.push_back({sub("motor"), part_fields("axis.NAME.motor"), unit});
+        out.push_back({sub("servo"), part_fields("axis.NAME.servo"), unit});
+        out.push_back({sub("switches"), part_fields("axis.NAME.switches"), unit});
+        out.push_back({sub("homing"), part_fields("axis.NAME.homing"), unit});
     }
     return out;
 }
@@ -39,9 +40,9 @@ std::vector<SectionText> conveyor_sections() {
     for (const bool rotary : {false, true}) {
         const std::string name = rotary ? "table.t1" : "belt.b1";
         const std::string unit = rotary ? "deg" : "mm";
-        out.push_back({rack_with("[" + name + "]\n"), track_fields(), unit});
-        out.push_back({rack_with("[" + name + ".sender]\n"), sender_fields(), unit});
-        out.push_back({rack_with("[" + name + ".parts]\n"), passing_fields(), unit});
+        out.push_back({rack_with("[" + name + "]\n"), part_fields("belt.NAME"), unit});
+        out.push_back({rack_with("[" + name + ".sender]\n"), part_fields("belt.NAME.sender"), unit});
+        out.push_back({rack_with("[" + name + ".parts]\n"), part_fields("belt.NAME.parts"), unit});
     }
     return out;
 }
@@ -51,11 +52,11 @@ std::vector<SectionText> all_sections() {
         {rack_with("[rack]\n"), rack_fields()},
         {rack_with("[controller]\n"), controller_fields()},
         {rack_with("[safety]\n"), safety_fields()},
-        {rack_with("[probe]\n"), probe_fields()},
-        {rack_with("[stage.s1]\n"), stage_fields()},
-        {rack_with("[stage.s1.scale]\n"), scale_fields()},
-        {rack_with("[stage.s1.servo]\n"), stage_servo_fields()},
-        {rack_with("[scanner.s1]\n"), scanner_fields()},
+        {rack_with("[probe]\n"), part_fields("probe")},
+        {rack_with("[stage.s1]\n"), part_fields("stage.NAME")},
+        {rack_with("[stage.s1.scale]\n"), part_fields("stage.NAME.scale")},
+        {rack_with("[stage.s1.servo]\n"), part_fields("stage.NAME.servo")},
+        {rack_with("[scanner.s1]\n"), part_fields("scanner.NAME")},
         {rack_with("[scanner.s1.lens]\n"), lens_keys},
         {rack_with("[scanner.s1.galvo]\n"), galvo_keys},
         {rack_with("[scanner.s1.laser]\n"), laser_keys},

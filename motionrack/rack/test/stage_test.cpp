@@ -5,6 +5,7 @@
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/grating_card.hpp>
+#include <motionrack/rack/part_sections.hpp>
 #include <motionrack/rack/quantities.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/wire_access.hpp>
@@ -99,7 +100,8 @@ TEST(StageSections, ReportInconsistentSettings) {
 
 TEST(StageSections, AreOnTheReferencePage) {
     const std::string page = rack_file_reference();
-    for (const std::span<const Field> fields : {stage_fields(), scale_fields(), stage_servo_fields()})
+    for (const std::span<const Field> fields :
+         {part_fields("stage.NAME"), part_fields("stage.NAME.scale"), part_fields("stage.NAME.servo")})
         for (const Field& field : fields) {
             EXPECT_THAT(page, HasSubstr('`' + std::string(field.key) + '`'));
             EXPECT_THAT(page, HasSubstr(std::string(field.doc)));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/grating.hpp>
+#include <motionrack/rack/part_sections.hpp>
 #include <motionrack/rack/stage.hpp>
 
 namespace motionrack::rack {
@@ -86,65 +87,25 @@ constexpr std::array<Field, 16> stage_servo_table = {
     field<&RackStageServo::delay_ms>("delay_ms", 0, 1e9, "ms", "start time of the profile"),
 };
 
-class StageReader {
+/// What conflicts in a stage.
+class StageCheck {
   public:
-    StageReader(RackConfig& config, Problems& problems) : config_(config), problems_(problems) {}
+    StageCheck(const RackStage& stage, const RackConfig& config, PartReader& reader)
+        : stage_(stage), config_(config), reader_(reader) {}
 
-    void read(const TomlNode& node) {
-        if (!is_name(node.key) || node.key == "estop" || config_.card(node.key) != nullptr || node.key.size() == 1) {
-            problems_.error(
-                node.key_location,
-                fmt::format("{} cannot be a stage's name: 2 to 32 letters, digits and '_', not beginning with a digit, "
-                            "not the name of a card, not estop.",
-                            in_quotes(node.key)));
-            return;
-        }
-        if (!is_table(node, "stage." + node.key)) return;
-        RackStage stage;
-        stage.name = node.key;
-        const std::string name = "stage " + node.key;
-        bool sound = read_fields(node, stage_fields(), &stage, {name, "", "", stage_tables}, problems_).empty();
-        if (const TomlNode* scale = node.find("scale"))
-            sound = read_sub(*scale, name, scale_fields(), &stage.scale) && sound;
-        if (const TomlNode* servo = node.find("servo"))
-            sound = read_sub(*servo, name, stage_servo_fields(), &stage.servo.emplace()) && sound;
-        if (!sound) return;
-        check(stage, node);
-        config_.stages.push_back(std::move(stage));
-    }
-
-  private:
-    bool is_table(const TomlNode& node, const std::string& path) {
-        if (node.type == TomlType::table) return true;
-        problems_.error(
-            node.value_location,
-            fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.", path,
-                        type_name(node.type), path));
-        return false;
-    }
-    bool read_sub(const TomlNode& node, const std::string& stage, std::span<const Field> fields, void* object) {
-        return is_table(node, stage + "." + node.key) &&
-               read_fields(node, fields, object, {node.key + " of " + stage, "", "", {}}, problems_).empty();
-    }
-    void refuse(const TomlNode& node, std::string_view key, std::string text) {
-        problems_.error(node.location_of(key), fmt::format("Stage {}: {}", node.key, text));
-    }
-
-    void check(const RackStage& stage, const TomlNode& node) {
-        const RackCard* card = config_.card(stage.card);
-        if (card == nullptr) return refuse(node, "card", fmt::format("unknown card {}.", in_quotes(stage.card)));
+    void run() {
+        const RackCard* card = config_.card(stage_.card);
+        if (card == nullptr) return reader_.refuse("card", fmt::format("unknown card {}.", in_quotes(stage_.card)));
         if (card->type != "grating_bus")
-            return refuse(
-                node, "card",
-                fmt::format("card {} is of type {}; one of type grating_bus drives a stage.", stage.card, card->type));
+            return reader_.refuse("card", fmt::format("card {} is of type {}; one of type grating_bus drives a stage.",
+                                                      stage_.card, card->type));
         for (const RackStage& other : config_.stages) {
-            if (other.card == stage.card && other.output == stage.output)
-                refuse(
-                    node, "output",
-                    fmt::format("output {} of card {} drives stage {} already.", stage.output, stage.card, other.name));
-            if (other.input == stage.input)
-                refuse(node, "input",
-                       fmt::format("scale {} of the decoder is that of stage {} already.", stage.input, other.name));
+            if (other.card == stage_.card && other.output == stage_.output)
+                reader_.refuse("output", fmt::format("output {} of card {} drives stage {} already.", stage_.output,
+                                                     stage_.card, other.name));
+            if (other.input == stage_.input)
+                reader_.refuse("input", fmt::format("scale {} of the decoder is that of stage {} already.",
+                                                    stage_.input, other.name));
         }
         const std::vector<int> wanted = wanted_scales(card->grating_bus);
         if (wanted.empty()) return;  // its list is invalid, which is reported for the card
@@ -155,79 +116,107 @@ class StageReader {
                     scales = std::max(scales, std::int64_t{1} + address);
         for (const RackCard& other : config_.cards)
             if (other.type == "grating_decoder") scales = other.grating_decoder.scales;
-        if (stage.input >= scales)
-            refuse(node, "input",
-                   fmt::format("its scale is number {}, but the decoder has {} (0 to {}).", stage.input, scales,
-                               scales - 1));
-        if (stage.servo && std::find(wanted.begin(), wanted.end(), stage.input) == wanted.end())
-            refuse(node, "input",
-                   fmt::format("card {} cannot close its loop: it reads the scales {}, and its scale is number {}.",
-                               stage.card, fmt::join(wanted, ", "), stage.input));
-        check_scale(stage, node);
-        if (check_servo(stage, node)) check_place(stage, node);
+        if (stage_.input >= scales)
+            reader_.refuse("input", fmt::format("its scale is number {}, but the decoder has {} (0 to {}).",
+                                                stage_.input, scales, scales - 1));
+        if (stage_.servo && std::find(wanted.begin(), wanted.end(), stage_.input) == wanted.end())
+            reader_.refuse(
+                "input",
+                fmt::format("card {} cannot close its loop: it reads the scales {}, and its scale is number {}.",
+                            stage_.card, fmt::join(wanted, ", "), stage_.input));
+        check_scale();
+        if (check_servo()) check_place();
     }
-    void check_scale(const RackStage& stage, const TomlNode& node) {
-        const TomlNode* table = node.find("scale");
+
+  private:
+    void check_scale() {
+        const TomlNode* table = reader_.node().find("scale");
         if (table == nullptr) return;
-        const double pm = stage.scale.pitch_um * 1e6;
+        const double pm = stage_.scale.pitch_um * 1e6;
         if (std::fabs(pm - std::floor(pm + 0.5)) > 1e-6)
-            refuse(*table, "pitch_um",
-                   fmt::format("a pitch of {} um is not a whole number of picometres.",
-                               number_text(stage.scale.pitch_um)));
-        if (stage.scale.interpolation % 4 != 0)
-            refuse(*table, "interpolation",
-                   fmt::format("{} counts of a pitch are no multiple of 4, which A and B cannot represent.",
-                               stage.scale.interpolation));
+            reader_.refuse(*table, "pitch_um",
+                           fmt::format("a pitch of {} um is not a whole number of picometres.",
+                                       number_text(stage_.scale.pitch_um)));
+        if (stage_.scale.interpolation % 4 != 0)
+            reader_.refuse(*table, "interpolation",
+                           fmt::format("{} counts of a pitch are no multiple of 4, which A and B cannot represent.",
+                                       stage_.scale.interpolation));
     }
-    bool check_servo(const RackStage& stage, const TomlNode& node) {
-        if (!stage.servo) return true;
-        const TomlNode& table = *node.find("servo");
-        if (stage.servo->control_delay_us >= config_.card(stage.card)->grating_bus.period_us)
-            refuse(table, "control_delay_us",
-                   fmt::format("computing takes {} us, but the frame period is {} us.",
-                               number_text(stage.servo->control_delay_us),
-                               number_text(config_.card(stage.card)->grating_bus.period_us)));
-        const std::string flaw = profile_flaw(stage);
-        if (!flaw.empty()) refuse(table, "profile", flaw);
+    bool check_servo() {
+        if (!stage_.servo) return true;
+        const TomlNode& table = *reader_.node().find("servo");
+        if (stage_.servo->control_delay_us >= config_.card(stage_.card)->grating_bus.period_us)
+            reader_.refuse(table, "control_delay_us",
+                           fmt::format("computing takes {} us, but the frame period is {} us.",
+                                       number_text(stage_.servo->control_delay_us),
+                                       number_text(config_.card(stage_.card)->grating_bus.period_us)));
+        const std::string flaw = profile_flaw(stage_);
+        if (!flaw.empty()) reader_.refuse(table, "profile", flaw);
         return flaw.empty();
     }
-    void check_place(const RackStage& stage, const TomlNode& node) {
-        if (!(stage.hard_stop_minus_mm < stage.hard_stop_plus_mm))
-            return refuse(node, "hard_stop_plus_mm",
-                          fmt::format("its ends of travel are {} and {} mm; the first must be the smaller.",
-                                      number_text(stage.hard_stop_minus_mm), number_text(stage.hard_stop_plus_mm)));
-        const double start = motor_settings(stage).start_nm * 1e-6;
-        if (start < stage.hard_stop_minus_mm || start > stage.hard_stop_plus_mm)
-            refuse(node, "start_mm",
-                   fmt::format("it starts at {} mm, beyond its ends of travel at {} and {} mm.", number_text(start),
-                               number_text(stage.hard_stop_minus_mm), number_text(stage.hard_stop_plus_mm)));
+    void check_place() {
+        if (!(stage_.hard_stop_minus_mm < stage_.hard_stop_plus_mm))
+            return reader_.refuse(
+                "hard_stop_plus_mm",
+                fmt::format("its ends of travel are {} and {} mm; the first must be the smaller.",
+                            number_text(stage_.hard_stop_minus_mm), number_text(stage_.hard_stop_plus_mm)));
+        const double start = motor_settings(stage_).start_nm * 1e-6;
+        if (start < stage_.hard_stop_minus_mm || start > stage_.hard_stop_plus_mm)
+            reader_.refuse("start_mm", fmt::format("it starts at {} mm, beyond its ends of travel at {} and {} mm.",
+                                                   number_text(start), number_text(stage_.hard_stop_minus_mm),
+                                                   number_text(stage_.hard_stop_plus_mm)));
     }
 
-    RackConfig& config_;
-    Problems& problems_;
+    const RackStage& stage_;
+    const RackConfig& config_;
+    PartReader& reader_;
 };
 
-}  // namespace
-
-std::span<const Field> stage_fields() {
-    return stage_table;
-}
-std::span<const Field> scale_fields() {
-    return scale_table;
-}
-std::span<const Field> stage_servo_fields() {
-    return stage_servo_table;
-}
-
-bool is_name(std::string_view name) {
-    const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-    const auto allowed = [&](char c) { return letter(c) || (c >= '0' && c <= '9'); };
-    return !name.empty() && name.size() <= 32 && letter(name[0]) && std::all_of(name.begin(), name.end(), allowed);
+void read_stage(const TomlNode& node, RackConfig& config, Problems& problems) {
+    if (!is_free_name(config, node.key)) {
+        problems.error(
+            node.key_location,
+            fmt::format("{} cannot be a stage's name: 2 to 32 letters, digits and '_', not beginning with a digit, "
+                        "not the name of a card, not estop.",
+                        in_quotes(node.key)));
+        return;
+    }
+    if (!is_table(node, "stage." + node.key, problems)) return;
+    RackStage stage;
+    stage.name = node.key;
+    const std::string name = "stage " + node.key;
+    PartReader reader(node, {name, "", "", {}}, "Stage " + node.key, problems);
+    const auto read_own = [&](const TomlNode& table, std::span<const Field> fields, void* object) {
+        return is_table(table, name + "." + table.key, problems) && reader.read_table(table, fields, object);
+    };
+    bool sound = reader.read(stage_table, &stage, stage_tables);
+    if (const TomlNode* scale = node.find("scale")) sound = read_own(*scale, scale_table, &stage.scale) && sound;
+    if (const TomlNode* servo = node.find("servo"))
+        sound = read_own(*servo, stage_servo_table, &stage.servo.emplace()) && sound;
+    if (!sound) return;
+    StageCheck(stage, config, reader).run();
+    config.stages.push_back(std::move(stage));
 }
 
 void read_stages(const TomlNode& stages, RackConfig& config, Problems& problems) {
-    StageReader reader(config, problems);
-    for (const TomlNode& node : stages.children) reader.read(node);
+    for (const TomlNode& node : stages.children) read_stage(node, config, problems);
 }
+
+constexpr std::array<std::string_view, 1> stage_keys = {"stage"};
+constexpr std::array<PartSection, 3> stage_section_rows = {{
+    {"[stage.NAME]",
+     "A stage on a linear motor with a grating scale, driven by an analog output of a card of a grating bus.",
+     stage_table, default_object<RackStage>},
+    {"[stage.NAME.scale]", {}, scale_table, default_object<RackScale>},
+    {"[stage.NAME.servo]",
+     "With the section, even an empty one, the card's processor closes a loop through the bus' frames and follows the "
+     "profile.",
+     stage_servo_table, default_object<RackStageServo>},
+}};
+
+}  // namespace
+
+constinit const PartSections stage_sections = {stage_keys, stage_section_rows, names_in<&RackConfig::stages>,
+                                               read_stages};
 
 }  // namespace motionrack::rack

@@ -1,13 +1,28 @@
 // Section [probe]: a touch probe and the workpiece that it touches.
 #include <fmt/format.h>
 
+#include <array>
 #include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/part_sections.hpp>
 
 namespace motionrack::rack {
 
+namespace {
+
+constexpr std::array<Field, 6> probe_table = {
+    absent_means(formerly("x_from_mm", field<&RackProbe::x_min>("x_min_mm", -1e7, 1e7, "mm",
+                                                                "start of the workpiece that the probe touches")),
+                 "no bound"),
+    absent_means(formerly("x_to_mm", field<&RackProbe::x_max>("x_max_mm", -1e7, 1e7, "mm", "to here")), "no bound"),
+    absent_means(formerly("y_from_mm", field<&RackProbe::y_min>("y_min_mm", -1e7, 1e7, "mm", "from here")), "no bound"),
+    absent_means(formerly("y_to_mm", field<&RackProbe::y_max>("y_max_mm", -1e7, 1e7, "mm", "to here")), "no bound"),
+    absent_means(formerly("z_from_mm", field<&RackProbe::z_min>("z_min_mm", -1e7, 1e7, "mm", "from here")), "no bound"),
+    absent_means(formerly("z_to_mm", field<&RackProbe::z_max>("z_max_mm", -1e7, 1e7, "mm", "to here")), "no bound"),
+};
+
 void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
     RackProbe probe;
-    const auto refused = read_fields(node, probe_fields(), &probe, {"probe", "", "", {}}, problems);
+    read_fields(node, probe_table, &probe, {"probe", "", "", {}}, problems);
     for (int axis = 0; axis < 3; ++axis) {
         const char letter = control::axis_letters[static_cast<std::size_t>(axis)];
         const char small = static_cast<char>(letter - 'A' + 'a');
@@ -38,5 +53,19 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
     }
     config.probe = probe;
 }
+
+constexpr std::array<std::string_view, 1> probe_keys = {"probe"};
+constexpr std::array<PartSection, 1> probe_section_rows = {{
+    {"[probe]",
+     "A touch probe for G38.2 to G38.5 and the workpiece that it touches, in machine coordinates. Without this section "
+     "the rack has no probe. Where an axis has one bound or none the workpiece is unbounded there; without any bound "
+     "the probe touches nothing. The axes must be on a card of type mcx314 with `variant = \"mcx314as\"`; by default "
+     "its wire `probe` leads to the input `in3` of each of their channels.",
+     probe_table, default_object<RackProbe>},
+}};
+
+}  // namespace
+
+constinit const PartSections probe_sections = {probe_keys, probe_section_rows, nullptr, read_probe};
 
 }  // namespace motionrack::rack
