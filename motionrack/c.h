@@ -208,6 +208,8 @@ MR_API int mr_wire_set(mr_rack* rack, const char* wire, double value);
  *   energy_j          laser energy on the part
  *   points            stored points of the marks
  *   lost_points       points beyond max_points
+ * Of a signal lamp:
+ *   lit               1 while it shines, else 0
  * For an unknown name the error lists the known names. MR_BAD_CALL. */
 MR_API int mr_part_get(mr_rack* rack, const char* part_dot_quantity, double* value);
 
@@ -242,7 +244,7 @@ MR_API int mr_part_set(mr_rack* rack, const char* part_dot_quantity, double valu
  *   drive.speed              a belt or table moves at VALUE mm/s or degrees/s from now on; 0: standstill
  *   drive.profile            back to the profile of the rack file
  *   sender.silent            the sender is silent; 0 repairs it
- * Stages and cards have faults, too ("scale.lose" of a stage, "off" of a card): mr_faults lists the faults of a rack.
+ * Stages, lamps and cards have faults, too ("scale.lose" of a stage, "off" of a card): mr_faults lists those of a rack.
  * MR_BAD_CALL (null, unknown fault or target), MR_REFUSED (the axis has no such part; value out of range). */
 MR_API int mr_fault(mr_rack* rack, const char* fault, const char* target);
 
@@ -255,8 +257,8 @@ typedef struct mr_quantity {
     int can_set;         /* 1: mr_part_set can set it; else 0 */
 } mr_quantity;
 
-/* Calls `tell` for each quantity of the rack: of its axes, stages, belts, tables and scan heads as above, then of its
- * cards. The texts are valid until `tell` returns. MR_BAD_CALL, MR_INTERNAL. */
+/* Calls `tell` for each quantity of the rack: of its axes, stages, belts, tables, scan heads and lamps as above, then
+ * of its cards. The texts are valid until `tell` returns. MR_BAD_CALL, MR_INTERNAL. */
 MR_API int mr_quantities(mr_rack* rack, void (*tell)(void* user, const mr_quantity* quantity), void* user);
 
 /* Description of a fault that can be injected, for mr_faults. */
@@ -268,8 +270,8 @@ typedef struct mr_fault_info {
     double min, max;     /* range of the value */
 } mr_fault_info;
 
-/* Calls `tell` for each fault that can be injected in this rack: of axes, cards, stages, belts and tables. The texts
- * are valid until `tell` returns. MR_BAD_CALL, MR_INTERNAL. */
+/* Calls `tell` for each fault that can be injected in this rack: of axes, cards, stages, belts, tables and lamps. The
+ * texts are valid until `tell` returns. MR_BAD_CALL, MR_INTERNAL. */
 MR_API int mr_faults(mr_rack* rack, void (*tell)(void* user, const mr_fault_info* fault), void* user);
 
 /* ---- The controller ---- */

@@ -137,6 +137,7 @@ TEST(CReference, TheHeaderHasEveryQuantityAndFaultWithItsMeaning) {
     has("stage", header.find("Of a stage"));
     has("conveyor", header.find("Of a belt or a rotary table"));
     has("scanner", header.find("Of a scan head"));
+    has("lamp", header.find("Of a signal lamp"));
     std::size_t at = header.find("Injects a fault, or repairs it");
     for (const std::string_view fault : rack::fault_names()) {
         at = header.find("\n *   " + std::string(fault), at);

@@ -268,12 +268,20 @@ struct RackStage {
     std::optional<RackStageServo> servo;  ///< absent: the stage is not driven
 };
 
+// ---- Lamps
+
+/// A signal lamp of the machine; see parts::SignalLamp.
+struct RackLamp {
+    std::string name;
+    bool active_low = false;  ///< it shines while its input is low
+};
+
 // ---- Wires
 
-enum class EndOwner : std::uint8_t { card, axis, track, estop, probe, stage };
+enum class EndOwner : std::uint8_t { card, axis, track, estop, probe, stage, lamp };
 
-/// One end of a wire: pin `pin` of cards[index] ("xpp"), or signal `pin` of axes[index] or tracks[index] (see
-/// part_signals.hpp). With an empty pin: the emergency stop or the probe.
+/// One end of a wire: pin `pin` of cards[index] ("xpp"), or signal `pin` of axes[index], tracks[index] or lamps[index]
+/// (see part_signals.hpp). With an empty pin: the emergency stop or the probe.
 struct WireEnd {
     EndOwner owner = EndOwner::card;
     int index = 0;
@@ -334,6 +342,7 @@ struct RackConfig {
     std::vector<RackStage> stages;       ///< in the order of the file
     std::vector<RackConveyor> tracks;    ///< belts, then tables, each in the order of the file
     std::vector<RackScanner> scanners;   ///< in the order of the file
+    std::vector<RackLamp> lamps;         ///< in the order of the file
     std::vector<RackWire> wires;         ///< default rule with the file's changes; sorted by `to`: cards, axes, pins
     std::vector<WireEnd> open;           ///< card inputs that the file leaves open; an open contact input is active
     std::vector<PulseLink> pulse_links;  ///< derived from `wires`; the motor of an axis without one is not driven

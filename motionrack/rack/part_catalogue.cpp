@@ -6,13 +6,14 @@
 namespace motionrack::rack {
 
 std::span<const PartKind* const> part_kinds() {
-    static constexpr std::array<const PartKind*, 7> kinds = {
+    static constexpr std::array<const PartKind*, 8> kinds = {
         &axis_part_kind,      //
         &card_part_kind,      //
         &probe_part_kind,     //
         &stage_part_kind,     //
         &conveyor_part_kind,  //
         &scanner_part_kind,   //
+        &lamp_part_kind,      //
         &estop_part_kind,
     };
     return kinds;

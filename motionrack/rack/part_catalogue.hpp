@@ -36,6 +36,7 @@ extern const PartKind probe_part_kind;
 extern const PartKind stage_part_kind;
 extern const PartKind conveyor_part_kind;
 extern const PartKind scanner_part_kind;
+extern const PartKind lamp_part_kind;
 extern const PartKind estop_part_kind;
 
 std::span<const PartKind* const> part_kinds();

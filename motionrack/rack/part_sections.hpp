@@ -36,6 +36,7 @@ extern const PartSections probe_sections;
 extern const PartSections stage_sections;
 extern const PartSections conveyor_sections;
 extern const PartSections scanner_sections;
+extern const PartSections lamp_sections;
 
 /// Returns the defaults of a section for parts without other defaults for rotary ones.
 template <class T>

@@ -17,6 +17,8 @@ Rack::Rack(const RackConfig& config) : config_(config) {
     for (const RackConveyor& track : config_.tracks) tracks_.push_back(build_track(kernel_, track));
     join_links();
     if (config_.probe) build_probe();
+    for (const RackLamp& lamp : config_.lamps)
+        lamps_.push_back({lamp, std::make_unique<parts::SignalLamp>(kernel_, lamp.name, lamp.active_low)});
     build_wires();
     build_stages();
     build_scanners();

@@ -27,6 +27,7 @@
 #include <motionrack/sim/parts/dc_motor.hpp>
 #include <motionrack/sim/parts/line_encoder.hpp>
 #include <motionrack/sim/parts/reference_cam.hpp>
+#include <motionrack/sim/parts/signal_lamp.hpp>
 #include <motionrack/sim/parts/touch_probe.hpp>
 #include <motionrack/sim/virtual_port.hpp>
 #include <motionrack/sim/wire_connections.hpp>
@@ -64,6 +65,12 @@ struct RunningAxis {
     }
 };
 
+/// One signal lamp of the running machine.
+struct RunningLamp {
+    RackLamp config;
+    std::unique_ptr<parts::SignalLamp> device;
+};
+
 class Rack {
   public:
     /// Builds cards, parts and wires at virtual time 0. The config must come from read_rack.
@@ -81,6 +88,7 @@ class Rack {
     RunningStage* stage(std::string_view name);
     std::vector<RunningConveyor>& tracks() { return tracks_; }
     std::vector<RunningScanner>& scanners() { return scanners_; }
+    std::vector<RunningLamp>& lamps() { return lamps_; }
     /// Returns nullptr if the conveyor is unknown.
     RunningConveyor* track(std::string_view name);
     RunningScanner* scanner(std::string_view name);
@@ -135,6 +143,7 @@ class Rack {
     std::vector<std::pair<std::string, std::unique_ptr<CardProcessor>>> processors_;  // by card name
     std::vector<RunningConveyor> tracks_;
     std::vector<RunningScanner> scanners_;
+    std::vector<RunningLamp> lamps_;
     std::vector<std::unique_ptr<Part>> parts_;
     FixedPosition still_;  // source of a motor whose step input is open
     std::vector<std::unique_ptr<InvertedPosition>> mirrored_;

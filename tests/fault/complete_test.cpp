@@ -21,13 +21,15 @@ TEST(FaultCatalogue, IsThePageOfTheReference) {
         << "make it anew: fault_page > docs/reference/faults.md";
 }
 
-/// Returns the kind of a rack element with faults: "stepping axis", "servo axis", "stage", "belt or table", or the card
-/// type.
+/// Returns the kind of a rack element with faults: "stepping axis", "servo axis", "stage", "belt or table", "lamp", or
+/// the card type.
 std::string kind_of(rack::Rack& rack, const std::string& target) {
     for (const rack::RunningAxis& axis : rack.axes())
         if (target == std::string(1, axis.config.letter)) return axis.servo ? "servo axis" : "stepping axis";
     if (rack.stage(target) != nullptr) return "stage";
     if (rack.track(target) != nullptr) return "belt or table";
+    for (const rack::RackLamp& lamp : rack.config().lamps)
+        if (lamp.name == target) return "lamp";
     for (const rack::RackCard& card : rack.config().cards)
         if (card.name == target) return card.type;
     return "?";

@@ -63,6 +63,7 @@ std::vector<FieldCase> all_fields() {
     add(lens_keys, "scanner.head.lens", 'X', "", "rtc5");
     add(galvo_keys, "scanner.head.galvo", 'X', "", "rtc5");
     add(laser_keys, "scanner.head.laser", 'X', "", "rtc5");
+    add(part_fields("lamp.NAME"), "lamp.red", 'X', "");
     return out;
 }
 
@@ -245,7 +246,8 @@ TEST(RackReference, HasEveryKeyPinAndEnd) {
         if (kind->signals != nullptr)
             for (const DeclaredSignal& one : kind->signals->declared()) ends.push_back(one.name);
     for (const std::string& end : ends) EXPECT_THAT(page, HasSubstr(fmt::format("| `{}` |", end)));
-    EXPECT_THAT(ends, testing::IsSupersetOf({"X.step", "X.cam", "NAME.enc_a", "NAME.sensor_n", "probe", "estop"}));
+    EXPECT_THAT(ends,
+                testing::IsSupersetOf({"X.step", "X.cam", "NAME.enc_a", "NAME.sensor_n", "NAME.in", "probe", "estop"}));
 }
 
 TEST(CardTypes, HaveUniquePinsAndChoicesThatTheReaderKnows) {

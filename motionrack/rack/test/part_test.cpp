@@ -37,6 +37,7 @@ card = "scan"
 [scanner.head]
 card = "scan"
 conveyor = "line"
+[lamp.red]
 )";
 
 Part& part_named(Rack& rack, std::string_view name) {
@@ -46,16 +47,16 @@ Part& part_named(Rack& rack, std::string_view name) {
     return *rack.parts().front();
 }
 
-TEST(Parts, AreAxesThenCardsStagesConveyorsAndScanHeads) {
+TEST(Parts, AreAxesThenCardsStagesConveyorsScanHeadsAndLamps) {
     Rack rack(good(one_of_each));
     std::vector<std::string> names, subjects;
     for (const auto& part : rack.parts()) {
         names.push_back(part->name());
         subjects.push_back(part->subject());
     }
-    EXPECT_THAT(names, ElementsAre("X", "m", "decoder", "host", "scan", "mask", "line", "head"));
+    EXPECT_THAT(names, ElementsAre("X", "m", "decoder", "host", "scan", "mask", "line", "head", "red"));
     EXPECT_THAT(subjects, ElementsAre("Axis X", "Card m", "Card decoder", "Card host", "Card scan", "Stage mask",
-                                      "line", "head"));
+                                      "line", "head", "Lamp red"));
 }
 
 TEST(Parts, GiveTheValuesThatTheirListsOfQuantitiesName) {
@@ -84,6 +85,7 @@ TEST(Parts, NumberTheirFaultsAsTheInputLogHasThem) {
                 ElementsAre("drive.speed", "drive.profile", "encoder.broken_a", "encoder.broken_b", "encoder.swapped",
                             "encoder.inverted_a", "encoder.inverted_b", "encoder.noise", "encoder.jitter"));
     EXPECT_THAT(part_named(rack, "head").fault_names(), IsEmpty());
+    EXPECT_THAT(part_named(rack, "red").fault_names(), ElementsAre("burnt_out"));
     EXPECT_THAT(part_named(rack, "m").fault_names(), IsEmpty());
 }
 
@@ -99,7 +101,7 @@ TEST(Parts, CannotHaveTheFaultsOfWhatTheyLack) {
 TEST(Parts, CannotHaveFaultsThatTheyDoNotName) {
     Rack rack(good(one_of_each));
     rack.start();
-    for (const std::string_view name : {"X", "mask", "line", "head"}) {
+    for (const std::string_view name : {"X", "mask", "line", "head", "red"}) {
         Part& part = part_named(rack, name);
         EXPECT_FALSE(part.can_have("motor.melt")) << name;
         EXPECT_FALSE(part.inject(rack.kernel(), "motor.melt", 1)) << name;
