@@ -7,6 +7,7 @@
 #include <iterator>
 #include <motionrack/rack/recorded_job.hpp>
 #include <motionrack/rack/template.hpp>
+#include <motionrack/rack/wave_sink.hpp>
 #include <motionrack/trace/diff.hpp>
 #include <string>
 
@@ -80,10 +81,8 @@ void run_example_part(benchmark::State& state) {
     request.program = {std::istreambuf_iterator<char>(file), {}};
     rack::JobObservers watchers;
     const std::string path = scratch("run");
-    if (state.range(0) == 1) {
-        watchers.waves.emplace().path = path;
-        watchers.waves->unit = Duration{1};
-    }
+    if (state.range(0) == 1)
+        watchers.waves.emplace().sink = rack::wave_sink({path, rack::WaveFormat::vcd, Duration{1}});
     if (state.range(0) == 2) watchers.recording = path;
     double written = 0;
     for (auto _ : state) {

@@ -7,8 +7,9 @@
 #include <array>
 #include <filesystem>
 #include <motionrack/rack/job.hpp>
+#include <motionrack/rack/recorder.hpp>
 #include <motionrack/rack/template.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/wave_sink.hpp>
 #include <string>
 #include <tests/determinism/histories.hpp>
 #include <tests/source_root.hpp>
@@ -27,11 +28,11 @@ struct History {
 
 History run(const std::string& program, const std::string& vcd = {}) {
     Rack rack(*read_rack_text(*rack_template("router")).config);
-    std::unique_ptr<WaveRecorder> recorder;
+    std::unique_ptr<Recorder> recorder;
     if (!vcd.empty()) {
-        WaveSettings waves;
-        waves.path = vcd;
-        recorder = std::move(*WaveRecorder::create(rack, waves));
+        RecorderSettings waves;
+        waves.sink = wave_sink({vcd});
+        recorder = std::move(*Recorder::create(rack, waves));
     }
     JobSettings settings;
     settings.program = program;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/recorder.hpp>
 
 namespace motionrack::rack {
 namespace {

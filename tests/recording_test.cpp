@@ -9,6 +9,7 @@
 #include <motionrack/rack/job_report.hpp>
 #include <motionrack/rack/recorded_job.hpp>
 #include <motionrack/rack/template.hpp>
+#include <motionrack/rack/wave_sink.hpp>
 #include <motionrack/trace/changes.hpp>
 #include <motionrack/trace/diff.hpp>
 #include <tests/ran.hpp>
@@ -111,9 +112,8 @@ TEST_F(RecordedRun, HasEveryPulseAndCountThatWasCounted) {
 
 TEST_F(RecordedRun, HasThePulsesOfTheWavesTickForTick) {
     const JobRequest request = request_for(program);
-    WaveSettings waves;
-    waves.path = at("a.vcd");
-    waves.unit = Duration{1};
+    RecorderSettings waves;
+    waves.sink = wave_sink({at("a.vcd"), WaveFormat::vcd, Duration{1}});
     auto job = RecordedJob::create(request, {at("a.h5"), waves});
     ASSERT_TRUE(job);
     ASSERT_TRUE((*job)->run(nullptr, {}).ended);

@@ -6,9 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <motionrack/rack/job.hpp>
+#include <motionrack/rack/recorder.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/template.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/wave_sink.hpp>
 #include <set>
 #include <sstream>
 #include <tests/text_of.hpp>
@@ -28,10 +29,10 @@ TEST(Waves, SigrokCountsThePulsesAndEncoderEdgesOfAJob) {
     JobOutcome outcome;
     {
         Rack rack(*read_rack_text(*rack_template("router")).config);
-        WaveSettings waves;
-        waves.path = path;
+        RecorderSettings waves;
+        waves.sink = wave_sink({path});
         waves.signals = {"X.*"};
-        auto recorder = WaveRecorder::create(rack, waves);
+        auto recorder = Recorder::create(rack, waves);
         ASSERT_TRUE(recorder) << recorder.error().text();
         JobSettings settings;
         settings.program = program;
@@ -132,11 +133,10 @@ std::string recorded(const std::string& ending, const std::vector<std::string>& 
     const std::string path =
         (std::filesystem::temp_directory_path() / ("motionrack_waves_" + std::to_string(::getpid()) + ending)).string();
     Rack rack(*read_rack_text(*rack_template("router")).config);
-    WaveSettings waves;
-    waves.path = path;
-    waves.format = *wave_format(path);
+    RecorderSettings waves;
+    waves.sink = wave_sink({path, *wave_format(path)});
     waves.signals = signals;
-    auto recorder = WaveRecorder::create(rack, waves);
+    auto recorder = Recorder::create(rack, waves);
     EXPECT_TRUE(recorder) << recorder.error().text();
     JobSettings settings;
     settings.program = "G21 G90\nG1 X2 Y1 F600\nG1 X0.5\nM2\n";
@@ -220,18 +220,19 @@ TEST(Waves, TheUnitShowsEachEdgeThatAScaleOfItsCountRateHas) {
                  "[stage.mask]\ncard = \"host\"\ninput = 0\n[stage.mask.scale]\nmax_count_rate_mhz = " + megahertz)
                  .config);
         WireTap tap(rack.kernel());
-        WaveSettings waves;
-        waves.path =
+        const std::string path =
             (std::filesystem::temp_directory_path() / ("motionrack_unit_" + std::to_string(::getpid()) + ".vcd"))
                 .string();
+        RecorderSettings waves;
+        waves.sink = wave_sink({path});
         waves.signals = {"mask.scale.?"};
         waves.tap = &tap;
-        auto recorder = WaveRecorder::create(rack, waves);
+        auto recorder = Recorder::create(rack, waves);
         rack.start();
         (*recorder)->begin();
         EXPECT_TRUE((*recorder)->finish());
-        const std::string text = text_of(waves.path);
-        std::filesystem::remove(waves.path);
+        const std::string text = text_of(path);
+        std::filesystem::remove(path);
         const std::size_t at = text.find("$timescale ") + 11;
         return text.substr(at, text.find(" $end", at) - at);
     };
@@ -242,13 +243,14 @@ TEST(Waves, TheUnitShowsEachEdgeThatAScaleOfItsCountRateHas) {
 
 TEST(Waves, RejectsAnUnknownSignalWithAMessage) {
     Rack rack(*read_rack_text(*rack_template("single")).config);
-    WaveSettings waves;
-    waves.path = (std::filesystem::temp_directory_path() / "motionrack_no_signal.vcd").string();
+    const std::string path = (std::filesystem::temp_directory_path() / "motionrack_no_signal.vcd").string();
+    RecorderSettings waves;
+    waves.sink = wave_sink({path});
     waves.signals = {"Q.*"};
-    const auto recorder = WaveRecorder::create(rack, waves);
+    const auto recorder = Recorder::create(rack, waves);
     ASSERT_FALSE(recorder);
     EXPECT_NE(recorder.error().message.find("Q.*"), std::string::npos);
-    EXPECT_FALSE(std::filesystem::exists(waves.path)) << "nothing was recorded";
+    EXPECT_FALSE(std::filesystem::exists(path)) << "nothing was recorded";
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <motionrack/rack/frame_monitor.hpp>
 #include <motionrack/rack/periodic_sampler.hpp>
 #include <motionrack/rack/rack.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/recorder.hpp>
 #include <optional>
 
 namespace motionrack::operate {

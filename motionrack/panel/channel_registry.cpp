@@ -61,7 +61,7 @@ void ChannelRegistry::add(std::string name, std::string_view unit, std::string_v
     if (service_.live_place(card_part(name)) != nullptr) return;
     std::string key = name;
     channels_.try_emplace(std::move(key),
-                          Channel{std::move(name), std::string(unit), std::string(text), reader, std::move(read)});
+                          LiveChannel{std::move(name), std::string(unit), std::string(text), reader, std::move(read)});
 }
 
 void ChannelRegistry::add_axes(operate::Machine& machine) {
@@ -125,7 +125,7 @@ void ChannelRegistry::add_cards(rack::Rack& rack) {
     }
 }
 
-const Channel* ChannelRegistry::find(std::string_view name) const {
+const LiveChannel* ChannelRegistry::find(std::string_view name) const {
     const auto found = channels_.find(name);
     return found == channels_.end() ? nullptr : &found->second;
 }
@@ -137,7 +137,7 @@ Result<std::shared_ptr<ChannelSet>> ChannelRegistry::set_of(const std::vector<st
                                 Panel::max_channels));
     ListedSet held;
     for (const std::string& name : names) {
-        const Channel* channel = find(name);
+        const LiveChannel* channel = find(name);
         if (channel == nullptr)
             return fail(ErrorKind::invalid_input,
                         fmt::format("Unknown channel {}; the query channels lists all channels. Nothing was changed.",
@@ -163,7 +163,7 @@ void ChannelRegistry::show(std::int64_t sequence, Instant at) {
         values->sequence = sequence;
         values->at = at;
         values->numbers.reserve(it->second.channels.size());
-        for (const Channel* channel : it->second.channels) values->numbers.push_back(channel->read());
+        for (const LiveChannel* channel : it->second.channels) values->numbers.push_back(channel->read());
         set->show(std::move(values));
         ++it;
     }

@@ -24,7 +24,7 @@ enum class ChannelReader : std::uint8_t {
 };
 std::string_view name_of(ChannelReader reader);
 
-struct Channel {
+struct LiveChannel {
     std::string name;
     std::string unit;
     std::string text;  ///< one sentence
@@ -44,9 +44,9 @@ class ChannelRegistry {
     explicit ChannelRegistry(operate::Machine& machine);
 
     /// All channels by name.
-    const std::map<std::string, Channel, std::less<>>& all() const { return channels_; }
+    const std::map<std::string, LiveChannel, std::less<>>& all() const { return channels_; }
     /// Returns nullptr if the channel is unknown.
-    const Channel* find(std::string_view name) const;
+    const LiveChannel* find(std::string_view name) const;
     /// Errors: invalid_input with the unknown name, or for more than Panel::max_channels.
     Result<std::shared_ptr<ChannelSet>> set_of(const std::vector<std::string>& names);
     /// Reads the sets in use, and removes the others.
@@ -62,10 +62,10 @@ class ChannelRegistry {
 
     struct ListedSet {
         std::weak_ptr<ChannelSet> set;
-        std::vector<const Channel*> channels;
+        std::vector<const LiveChannel*> channels;
     };
     const operate::Service& service_;
-    std::map<std::string, Channel, std::less<>> channels_;
+    std::map<std::string, LiveChannel, std::less<>> channels_;
     std::map<std::vector<std::string>, ListedSet> sets_;
 };
 

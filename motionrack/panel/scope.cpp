@@ -29,18 +29,17 @@ std::string_view name_of(ScopeState state) {
 }
 
 /// Receives the recorder's changes, between runs and in order.
-class Scope::Sink final : public rack::WaveSink {
+class Scope::Sink final : public rack::ChangeSink {
   public:
-    Sink(Scope& scope, std::vector<rack::WaveSignal> signals) : scope_(scope), signals_(std::move(signals)) {}
+    Sink(Scope& scope, std::vector<rack::Channel> channels) : scope_(scope), channels_(std::move(channels)) {}
     void change(std::size_t index, std::int64_t value, Instant at) override {
         const std::size_t place = scope_.places_[index];
-        if (place != nowhere) scope_.see(at, place, signals_[index].shown(value));
+        if (place != nowhere) scope_.see(at, place, channels_[index].shown(value));
     }
-    Result<void> close(Instant) override { return {}; }
 
   private:
     Scope& scope_;
-    std::vector<rack::WaveSignal> signals_;
+    std::vector<rack::Channel> channels_;
 };
 
 Scope::Scope(operate::Machine& machine, ChannelRegistry& channels) : machine_(machine), book_(channels) {}
@@ -59,7 +58,7 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
     std::vector<std::string> wires;
     std::vector<NumericChannel> numbers;
     for (std::size_t i = 0; i < settings.channels.size(); ++i) {
-        const Channel* channel = book_.find(settings.channels[i]);
+        const LiveChannel* channel = book_.find(settings.channels[i]);
         if (channel == nullptr)
             return fail(ErrorKind::invalid_input,
                         fmt::format("Unknown channel {}; the query channels lists all channels.",
@@ -93,21 +92,20 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
 }
 
 Result<void> Scope::listen_to_wires(const std::vector<std::string>& wires) {
-    rack::WaveSettings settings;
+    rack::RecorderSettings settings;
     settings.signals = wires;
     settings.tap = &machine_.instruments().tap();
-    settings.sink = [this](const std::vector<rack::WaveSignal>& signals) -> std::unique_ptr<rack::WaveSink> {
+    settings.sink = [this](const rack::Declaration& declared) {
         places_.clear();
-        for (const rack::WaveSignal& signal : signals) {
-            const std::string name = signal.scope == "rack" ? signal.name : signal.scope + "." + signal.name;
-            const auto found = std::find(settings_.channels.begin(), settings_.channels.end(), name);
+        for (const rack::Channel& channel : declared.channels) {
+            const auto found = std::find(settings_.channels.begin(), settings_.channels.end(), channel.name);
             places_.push_back(found == settings_.channels.end()
                                   ? nowhere
                                   : static_cast<std::size_t>(found - settings_.channels.begin()));
         }
-        return std::make_unique<Sink>(*this, signals);
+        return std::make_shared<Sink>(*this, declared.channels);
     };
-    MOTIONRACK_TRY(recorder_, rack::WaveRecorder::create(machine_.rack(), settings));
+    MOTIONRACK_TRY(recorder_, rack::Recorder::create(machine_.rack(), settings));
     return {};
 }
 
@@ -220,7 +218,7 @@ void Scope::finish() {
     capture->period_s = to_seconds(settings_.period);
     capture->full = full_;
     for (std::size_t i = 0; i < settings_.channels.size(); ++i) {
-        const Channel* channel = book_.find(settings_.channels[i]);
+        const LiveChannel* channel = book_.find(settings_.channels[i]);
         capture->traces.push_back(
             {channel->name, channel->unit, channel->reader == ChannelReader::edges, base_[i], {}, {}});
     }

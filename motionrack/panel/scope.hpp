@@ -1,6 +1,6 @@
 // Scope of the rack: wires with every edge, numbers as periodic samples, from before a trigger until after it.
 //
-//   wires ────► WaveRecorder ──slice──► edges             ─┐
+//   wires ────► Recorder ──slice──► edges             ─┐
 //   numbers ──► PeriodicSampler, every period ──► samples ─┴─ trigger ──► ScopeCapture, shared, immutable
 //
 //   idle ──arm──► armed ──trigger──► triggered ──length is full──► done (single), armed again (run)
@@ -12,7 +12,7 @@
 #include <memory>
 #include <motionrack/operate/machine.hpp>
 #include <motionrack/panel/channel_registry.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/recorder.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -79,7 +79,7 @@ class Scope {
         double value = 0;
     };
     struct NumericChannel {
-        const Channel* channel = nullptr;
+        const LiveChannel* channel = nullptr;
         std::size_t place = 0;  ///< index in the settings' list
         double slow = 0;        ///< value at the last slice, for a channel that can be read only then
     };
@@ -103,7 +103,7 @@ class Scope {
     ChannelRegistry& book_;
     ScopeSettings settings_;
     ScopeState state_ = ScopeState::idle;
-    std::unique_ptr<rack::WaveRecorder> recorder_;
+    std::unique_ptr<rack::Recorder> recorder_;
     bool probing_ = false;
     // wires
     std::vector<std::size_t> places_;  ///< settings index of each recorder signal; npos: not selected

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <motionrack/rack/frame_monitor.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/recorder.hpp>
 #include <motionrack/trace/svg_waves.hpp>
 
 namespace motionrack::rack {

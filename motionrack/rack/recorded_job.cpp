@@ -92,7 +92,7 @@ Result<JobRequest> request_of(const trace::RecordingReader& recording) {
 Result<std::unique_ptr<RecordedJob>> RecordedJob::create(const JobRequest& request, const JobObservers& watchers) {
     std::unique_ptr<RecordedJob> out(new RecordedJob(request));
     if (watchers.waves) {
-        MOTIONRACK_TRY(out->waves_, WaveRecorder::create(out->rack_, *watchers.waves));
+        MOTIONRACK_TRY(out->waves_, Recorder::create(out->rack_, *watchers.waves));
     }
     MOTIONRACK_TRY(out->faults_, FaultSchedule::create_timed(out->rack_, request.faults));
     MOTIONRACK_TRY(out->commands_, CommandSchedule::create(out->rack_, request.commands));

@@ -12,7 +12,7 @@
 #include <motionrack/rack/fault_schedule.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/job_recorder.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/recorder.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,7 +41,7 @@ Result<JobRequest> request_of(const trace::RecordingReader& recording);
 
 struct JobObservers {
     std::string recording = {};  ///< path; empty: no recording
-    std::optional<WaveSettings> waves = std::nullopt;
+    std::optional<RecorderSettings> waves = std::nullopt;
 };
 
 class RecordedJob {
@@ -71,7 +71,7 @@ class RecordedJob {
 
     const JobRequest& request_;
     Rack rack_;
-    std::unique_ptr<WaveRecorder> waves_;
+    std::unique_ptr<Recorder> waves_;
     std::unique_ptr<JobRecorder> recorder_;
     std::unique_ptr<FaultSchedule> faults_;
     std::unique_ptr<CommandSchedule> commands_;

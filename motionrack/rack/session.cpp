@@ -9,6 +9,7 @@
 #include <motionrack/rack/raised_flag.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/toml_reader.hpp>
+#include <motionrack/rack/wave_sink.hpp>
 #include <motionrack/trace/vcd_writer.hpp>
 
 namespace motionrack::rack {
@@ -77,7 +78,7 @@ void Session::poll() {
     if (now() < next_poll_) return;
     recorder_->poll();
     recorder_->drain_settled();
-    const Duration period = recorder_->register_period();
+    const Duration period = recorder_->period();
     next_poll_ = (now() / period + 1) * period;
 }
 
@@ -215,12 +216,10 @@ Result<void> Session::set_trace_unit(double ns) {
 Result<void> Session::start_trace(const std::string& path, std::string_view signals, std::string_view version) {
     if (recorder_ && !recorder_->failed())
         return fail(ErrorKind::refused, "A recording is running and continues. Nothing was started. Stop it first.");
-    WaveSettings settings;
-    settings.path = path;
-    MOTIONRACK_TRY(settings.format, wave_format(path));
+    RecorderSettings settings;
+    MOTIONRACK_TRY(const WaveFormat format, wave_format(path));
+    settings.sink = wave_sink({path, format, trace_unit_, std::string(version)});
     settings.tap = tap_.get();
-    settings.unit = trace_unit_;
-    settings.version = version;
     constexpr std::string_view between = " ,\t\n";
     for (std::size_t at = 0; (at = signals.find_first_not_of(between, at)) != std::string_view::npos;) {
         const std::size_t end = std::min(signals.find_first_of(between, at), signals.size());
@@ -228,7 +227,7 @@ Result<void> Session::start_trace(const std::string& path, std::string_view sign
         at = end;
     }
     if (recorder_ && !recorder_->can_end_again()) recorder_.reset();  // a lost recording no longer blocks its name
-    MOTIONRACK_TRY(recorder_, WaveRecorder::create(rack_, settings));
+    MOTIONRACK_TRY(recorder_, Recorder::create(rack_, settings));
     next_poll_ = now();
     return {};
 }

@@ -3,7 +3,7 @@
 //               ┌──► Card: bus accesses, registers by name
 //               ├──► WireAccess: pins, switches
 //   outside ──► Session ──► quantities, faults: the machine
-//               ├──► WaveRecorder: recordings
+//               ├──► Recorder: recordings
 //               ├──► Job: a part program; home_axes
 //               └──► Kernel: time, copies, hash ──conditions, between runs──► call-back
 //
@@ -17,8 +17,8 @@
 #include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/recorder.hpp>
 #include <motionrack/rack/reported_condition.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
 #include <motionrack/rack/wire_access.hpp>
 #include <string>
 #include <string_view>
@@ -121,7 +121,7 @@ class Session {
     }
 
     // ---- recordings
-    /// Sets the time unit of later VCD files; 0: see WaveSettings::unit. Errors: refused (not a VCD unit).
+    /// Sets the time unit of later VCD files; 0: see WaveFile::unit. Errors: refused (not a VCD unit).
     Result<void> set_trace_unit(double ns);
     /// Starts a recording; its name ends in .vcd, .csv or .h5. `signals`: patterns with * and ?, separated by blanks or
     /// commas; empty: all signals except the pins that cards drive on demand. `version`: version of the recording
@@ -162,7 +162,7 @@ class Session {
     bool driving_ = false;        // a program or homing is running
     std::unique_ptr<WireTap> tap_;
     WireAccess context_;
-    std::unique_ptr<WaveRecorder> recorder_;
+    std::unique_ptr<Recorder> recorder_;
     Duration trace_unit_{0};
     Instant next_poll_ = never;  // next sampling of the registers by the recorder
 };

@@ -11,49 +11,49 @@ namespace motionrack::rack {
 
 namespace {
 
-class VcdSink final : public WaveSink {
+class VcdSink final : public ChangeSink {
   public:
     /// Opens each scope once, in order of first use.
-    VcdSink(trace::VcdWriter writer, const std::vector<WaveSignal>& signals)
-        : writer_(std::move(writer)), signals_(signals), ids_(signals.size()) {
+    VcdSink(trace::VcdWriter writer, const std::vector<Channel>& channels)
+        : writer_(std::move(writer)), channels_(channels), ids_(channels.size()) {
         std::vector<std::string> scopes;
-        for (const WaveSignal& signal : signals)
-            if (std::find(scopes.begin(), scopes.end(), signal.scope) == scopes.end()) scopes.push_back(signal.scope);
+        for (const Channel& channel : channels)
+            if (std::find(scopes.begin(), scopes.end(), channel.scope()) == scopes.end())
+                scopes.push_back(channel.scope());
         for (const std::string& scope : scopes) {
             writer_.push_scope(scope);
-            for (std::size_t i = 0; i < signals.size(); ++i)
-                if (signals[i].scope == scope) ids_[i] = declare(signals[i]);
+            for (std::size_t i = 0; i < channels.size(); ++i)
+                if (channels[i].scope() == scope) ids_[i] = declare(channels[i]);
             writer_.pop_scope();
         }
     }
 
     void change(std::size_t index, std::int64_t value, Instant at) override {
-        const WaveSignal& signal = signals_[index];
-        if (signal.is_number)
-            writer_.change_real(ids_[index], signal.shown(value), at);
-        else
+        const Channel& channel = channels_[index];
+        if (channel.is_level())
             writer_.change(ids_[index], value != 0, at);
+        else
+            writer_.change_real(ids_[index], channel.shown(value), at);
     }
     Result<void> close(Instant end) override { return writer_.close(end); }
 
   private:
-    trace::VcdWriter::Id declare(const WaveSignal& signal) {
-        return signal.is_number ? writer_.add_real(signal.name, signal.shown(signal.initial))
-                                : writer_.add_wire(signal.name, signal.initial != 0);
+    trace::VcdWriter::Id declare(const Channel& channel) {
+        return channel.is_level() ? writer_.add_wire(channel.short_name(), channel.initial != 0)
+                                  : writer_.add_real(channel.short_name(), channel.shown(channel.initial));
     }
 
     trace::VcdWriter writer_;
-    std::vector<WaveSignal> signals_;
+    std::vector<Channel> channels_;
     std::vector<trace::VcdWriter::Id> ids_;
 };
 
-class CsvSink final : public WaveSink {
+class CsvSink final : public ChangeSink {
   public:
-    CsvSink(trace::CsvWriter writer, const std::vector<WaveSignal>& signals, Instant start)
-        : writer_(std::move(writer)) {
-        for (const WaveSignal& signal : signals) {
-            columns_.push_back({signal.scope + '.' + signal.name, signal, signal.initial});
-            write(columns_.back(), start);
+    CsvSink(trace::CsvWriter writer, const Declaration& declared) : writer_(std::move(writer)) {
+        for (const Channel& channel : declared.channels) {
+            columns_.push_back({channel.scope() + '.' + channel.short_name(), channel.scale, channel.initial});
+            write(columns_.back(), declared.start);
         }
     }
 
@@ -68,7 +68,7 @@ class CsvSink final : public WaveSink {
   private:
     struct Column {
         std::string name;
-        WaveSignal signal;
+        double scale = 1;
         std::int64_t value = 0;
     };
 
@@ -76,10 +76,10 @@ class CsvSink final : public WaveSink {
         // Whole ticks of 100 ps are exact, a double of seconds is not.
         writer_.add(fmt::format("{}.{:010}", at.count() / 10'000'000'000, at.count() % 10'000'000'000));
         writer_.add(column.name);
-        if (column.signal.unit == 1)
+        if (column.scale == 1)
             writer_.add(column.value);
         else
-            writer_.add(fmt::format("{}", column.signal.shown(column.value)));
+            writer_.add(fmt::format("{}", static_cast<double>(column.value) * column.scale));
         writer_.end_line();
     }
 
@@ -87,7 +87,7 @@ class CsvSink final : public WaveSink {
     std::vector<Column> columns_;
 };
 
-class Hdf5Sink final : public WaveSink {
+class Hdf5Sink final : public ChangeSink {
   public:
     explicit Hdf5Sink(trace::RecordingWriter writer) : writer_(std::move(writer)) {}
 
@@ -108,18 +108,30 @@ class Hdf5Sink final : public WaveSink {
     Result<void> ended_;  // an error: the file is closed for good
 };
 
-Result<std::unique_ptr<WaveSink>> make_hdf5_sink(const WaveSinkSettings& settings,
-                                                 const std::vector<WaveSignal>& signals) {
+Result<std::shared_ptr<ChangeSink>> make_hdf5_sink(const WaveFile& file, const Declaration& declared) {
     trace::RecordingHead head;
-    head.version = settings.version;
-    head.rack_name = settings.rack_name;
+    head.version = file.version;
+    head.rack_name = declared.rack_name;
     head.sample_period = milliseconds(1);
-    for (const WaveSignal& signal : signals)
-        head.signals.push_back({signal.scope + '.' + signal.name, "wires/" + signal.scope + '/' + signal.name,
-                                trace::SignalKind::levels, signal.unit == 1 ? "" : "V", signal.initial, signal.unit});
-    Result<trace::RecordingWriter> writer = trace::RecordingWriter::create(settings.path, head, settings.start);
-    if (!writer) return tl::unexpected<Error>(std::move(writer).error());
-    return std::make_unique<Hdf5Sink>(std::move(*writer));
+    for (const Channel& channel : declared.channels)
+        head.signals.push_back({channel.scope() + '.' + channel.short_name(),
+                                "wires/" + channel.scope() + '/' + channel.short_name(), trace::SignalKind::levels,
+                                std::string(channel.unit), channel.initial, channel.scale});
+    MOTIONRACK_TRY(trace::RecordingWriter writer, trace::RecordingWriter::create(file.path, head, declared.start));
+    return std::make_shared<Hdf5Sink>(std::move(writer));
+}
+
+Result<std::shared_ptr<ChangeSink>> make_wave_sink(const WaveFile& file, const Declaration& declared) {
+    if (file.format == WaveFormat::hdf5) return make_hdf5_sink(file, declared);
+    if (file.format == WaveFormat::csv) {
+        MOTIONRACK_TRY(trace::CsvWriter writer, trace::CsvWriter::create(file.path, {"time_s", "signal", "value"}));
+        return std::make_shared<CsvSink>(std::move(writer), declared);
+    }
+    trace::VcdSettings vcd;
+    vcd.timescale = file.unit > Duration{0} ? file.unit : declared.edge_unit;
+    vcd.full_names = true;
+    MOTIONRACK_TRY(trace::VcdWriter writer, trace::VcdWriter::create(file.path, vcd));
+    return std::make_shared<VcdSink>(std::move(writer), declared.channels);
 }
 
 }  // namespace
@@ -136,18 +148,8 @@ Result<WaveFormat> wave_format(const std::string& path) {
                                                 path));
 }
 
-Result<std::unique_ptr<WaveSink>> make_wave_sink(const WaveSinkSettings& settings,
-                                                 const std::vector<WaveSignal>& signals) {
-    if (settings.format == WaveFormat::hdf5) return make_hdf5_sink(settings, signals);
-    if (settings.format == WaveFormat::csv) {
-        MOTIONRACK_TRY(trace::CsvWriter writer, trace::CsvWriter::create(settings.path, {"time_s", "signal", "value"}));
-        return std::make_unique<CsvSink>(std::move(writer), signals, settings.start);
-    }
-    trace::VcdSettings vcd;
-    vcd.timescale = settings.vcd_unit;
-    vcd.full_names = true;
-    MOTIONRACK_TRY(trace::VcdWriter writer, trace::VcdWriter::create(settings.path, vcd));
-    return std::make_unique<VcdSink>(std::move(writer), signals);
+SinkMaker wave_sink(WaveFile file) {
+    return [file = std::move(file)](const Declaration& declared) { return make_wave_sink(file, declared); };
 }
 
 }  // namespace motionrack::rack

@@ -89,7 +89,7 @@ void RackHandle::service_run() {
     if (recorder_) {
         if (now() >= next_register_look_) {
             recorder_->poll();
-            const Duration period = recorder_->register_period();
+            const Duration period = recorder_->period();
             next_register_look_ = (now() / period + 1) * period;
         }
         recorder_->drain();

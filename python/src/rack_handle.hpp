@@ -2,7 +2,7 @@
 // slices.
 //
 //   Python ──► RackHandle ──┬─► Rack, Job (a part program), FaultSchedule
-//                      ├─► WireAccess, WireTap, WaveRecorder
+//                      ├─► WireAccess, WireTap, Recorder
 //                      └─► RunBreaker ──break_run──► service_run(): faults that are due, samples, recordings, Ctrl-C
 #pragma once
 
@@ -11,7 +11,7 @@
 #include <motionrack/rack/fault_schedule.hpp>
 #include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/job.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/recorder.hpp>
 #include <optional>
 #include <python/src/host.hpp>
 #include <python/src/run_breaker.hpp>
@@ -131,7 +131,7 @@ class RackHandle final : public Host {
     std::unique_ptr<rack::Job> job_;
     std::unique_ptr<RunBreaker> bell_;
     std::unique_ptr<rack::WireTap> tap_;
-    std::unique_ptr<rack::WaveRecorder> recorder_;
+    std::unique_ptr<rack::Recorder> recorder_;
     Instant next_register_look_ = never;
     std::optional<Sampler> sampler_;
 };

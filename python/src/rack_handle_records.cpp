@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/rack/wave_sink.hpp>
 #include <python/src/python_error.hpp>
 #include <python/src/rack_handle.hpp>
 
@@ -42,12 +43,12 @@ Result<void> RackHandle::begin_waves(const std::string& path, const std::vector<
     if (recorder_)
         return fail(ErrorKind::refused,
                     "A recording of waves is running and continues. Nothing was started. Stop it first.");
-    rack::WaveSettings settings;
-    settings.path = path;
-    MOTIONRACK_TRY(settings.format, rack::wave_format(path));
+    MOTIONRACK_TRY(const rack::WaveFormat format, rack::wave_format(path));
+    rack::RecorderSettings settings;
+    settings.sink = rack::wave_sink({path, format});
     settings.tap = tap_.get();
     settings.signals = signals;
-    MOTIONRACK_TRY(recorder_, rack::WaveRecorder::create(*rack_, settings));
+    MOTIONRACK_TRY(recorder_, rack::Recorder::create(*rack_, settings));
     next_register_look_ = now();
     return {};
 }
@@ -55,7 +56,7 @@ Result<void> RackHandle::begin_waves(const std::string& path, const std::vector<
 Result<void> RackHandle::end_waves() {
     rack();
     if (!recorder_) return fail(ErrorKind::refused, "No recording of waves runs; nothing was done.");
-    const std::unique_ptr<rack::WaveRecorder> ended = std::move(recorder_);
+    const std::unique_ptr<rack::Recorder> ended = std::move(recorder_);
     next_register_look_ = never;
     return ended->finish();
 }

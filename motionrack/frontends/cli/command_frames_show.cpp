@@ -14,7 +14,8 @@
 #include <motionrack/rack/fault_schedule.hpp>
 #include <motionrack/rack/frame_monitor.hpp>
 #include <motionrack/rack/job.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/recorder.hpp>
+#include <motionrack/rack/wave_sink.hpp>
 
 namespace motionrack::cli {
 
@@ -65,7 +66,7 @@ class Screen {
 struct Show {
     rack::Rack& rack;
     rack::FaultSchedule& faults;
-    rack::WaveRecorder* recorder;
+    rack::Recorder* recorder;
     Screen& screen;
 
     void between_runs() {
@@ -176,14 +177,14 @@ int show_frames(const ShowOptions& options) {
     if (!may_write(inputs, {options.vcd, options.picture})) return exit_refused;
     rack::FrameMonitor watch(rack);
     std::unique_ptr<rack::WireTap> tap;
-    std::unique_ptr<rack::WaveRecorder> recorder;
+    std::unique_ptr<rack::Recorder> recorder;
     if (!options.vcd.empty()) {
         tap = std::make_unique<rack::WireTap>(rack.kernel());
-        rack::WaveSettings settings;
-        settings.path = options.vcd;
+        rack::RecorderSettings settings;
+        settings.sink = rack::wave_sink({options.vcd});
         settings.signals = {"bus.*", "*.state", "*.frame_done"};
         settings.tap = tap.get();
-        auto made = rack::WaveRecorder::create(rack, settings);
+        auto made = rack::Recorder::create(rack, settings);
         if (!made) return report(made.error());
         recorder = std::move(*made);
     }

@@ -13,6 +13,7 @@
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/job_report.hpp>
 #include <motionrack/rack/recorded_job.hpp>
+#include <motionrack/rack/wave_sink.hpp>
 #include <vector>
 
 namespace motionrack::cli {
@@ -119,10 +120,9 @@ int run(const RunOptions& options) {
     rack::JobObservers watchers;
     watchers.recording = options.record;
     if (!options.vcd.empty()) {
-        rack::WaveSettings& waves = watchers.waves.emplace();
-        waves.path = options.vcd;
+        rack::RecorderSettings& waves = watchers.waves.emplace();
         waves.signals = options.signals;
-        waves.unit = from_seconds(options.unit_ns * 1e-9);
+        waves.sink = rack::wave_sink({options.vcd, rack::WaveFormat::vcd, from_seconds(options.unit_ns * 1e-9)});
     }
     auto job = rack::RecordedJob::create(request, watchers);
     if (!job) return report(job.error());

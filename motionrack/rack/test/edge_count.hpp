@@ -14,8 +14,8 @@
 
 #include <memory>
 #include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/recorder.hpp>
 #include <motionrack/rack/test/drawn.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
 #include <string>
 #include <tests/environment.hpp>
 #include <tests/goes_on.hpp>
@@ -37,12 +37,12 @@ struct EdgesSeen {
 };
 
 /// Adds up the edges of two wires.
-class EdgeCount final : public WaveSink {
+class EdgeCount final : public ChangeSink {
   public:
-    EdgeCount(EdgesSeen& seen, Wires wires, std::size_t first, const std::vector<WaveSignal>& signals)
+    EdgeCount(EdgesSeen& seen, Wires wires, std::size_t first, const std::vector<Channel>& channels)
         : seen_(seen), wires_(wires), first_(first) {
-        is_first_high_ = signals[first].initial != 0;
-        is_second_high_ = signals[1 - first].initial != 0;
+        is_first_high_ = channels[first].initial != 0;
+        is_second_high_ = channels[1 - first].initial != 0;
     }
     void change(std::size_t index, std::int64_t value, Instant) override {
         const bool is_first = index == first_, is_high = value != 0;
@@ -52,7 +52,6 @@ class EdgeCount final : public WaveSink {
         ++(is_first ? seen_.first : seen_.second);
         seen_.count += step(is_first, is_high);
     }
-    Result<void> close(Instant) override { return {}; }
 
   private:
     int step(bool is_first, bool is_high) const {
@@ -76,15 +75,15 @@ class Counted {
     Counted(const std::string& text, const std::string& first, const std::string& second, Wires wires)
         : rack(*read_rack_text(text).config), tap(rack.kernel()) {
         rack.start();
-        WaveSettings settings;
+        RecorderSettings settings;
         settings.signals = {first, second};
         settings.tap = &tap;
-        settings.sink = [&](const std::vector<WaveSignal>& signals) {
-            EXPECT_EQ(signals.size(), 2u);
-            const std::size_t at = signals[0].scope + '.' + signals[0].name == first ? 0 : 1;
-            return std::make_unique<EdgeCount>(seen, wires, at, signals);
+        settings.sink = [&](const Declaration& declared) {
+            EXPECT_EQ(declared.channels.size(), 2u);
+            const std::size_t at = declared.channels[0].name == first ? 0 : 1;
+            return std::make_shared<EdgeCount>(seen, wires, at, declared.channels);
         };
-        recorder = std::move(*WaveRecorder::create(rack, settings));
+        recorder = std::move(*Recorder::create(rack, settings));
     }
     Card& card() { return *rack.cards()[0]; }
     void pass(Duration time) {
@@ -97,7 +96,7 @@ class Counted {
     Rack rack;
     WireTap tap;
     EdgesSeen seen;
-    std::unique_ptr<WaveRecorder> recorder;
+    std::unique_ptr<Recorder> recorder;
 };
 
 /// Moves one axis of an MCX314, the first card of a rack, by its registers.

@@ -1,9 +1,9 @@
-// Collects changes and writes them in order of time.
+// Collects changes and hands them over in order of time.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
-#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/recorder.hpp>
 #include <motionrack/rack/wire_access.hpp>
 
 namespace motionrack::rack {
@@ -38,9 +38,9 @@ constexpr Duration direction_lead = nanoseconds(250);
 
 }  // namespace
 
-class WaveRecorder::StepListener final : public sim::EdgeListener {
+class Recorder::StepListener final : public sim::EdgeListener {
   public:
-    StepListener(WaveRecorder& recorder, std::size_t step, std::size_t direction)
+    StepListener(Recorder& recorder, std::size_t step, std::size_t direction)
         : recorder_(recorder), step_(step), direction_(direction) {}
 
     void edges(const sim::EdgeBatch& batch) override {
@@ -65,16 +65,16 @@ class WaveRecorder::StepListener final : public sim::EdgeListener {
     }
 
   private:
-    WaveRecorder& recorder_;
+    Recorder& recorder_;
     std::size_t step_, direction_;
     Instant last_{};
     int sense_ = 0;
     bool high_ = false;
 };
 
-class WaveRecorder::LineListener final : public sim::EdgeListener {
+class Recorder::LineListener final : public sim::EdgeListener {
   public:
-    LineListener(WaveRecorder& recorder, std::size_t a, std::size_t b) : recorder_(recorder), a_(a), b_(b) {}
+    LineListener(Recorder& recorder, std::size_t a, std::size_t b) : recorder_(recorder), a_(a), b_(b) {}
 
     void edges(const sim::EdgeBatch& batch) override {
         std::int64_t count = batch.first_count;
@@ -87,13 +87,9 @@ class WaveRecorder::LineListener final : public sim::EdgeListener {
     }
 
   private:
-    WaveRecorder& recorder_;
+    Recorder& recorder_;
     std::size_t a_, b_;
 };
-
-std::int64_t WaveRecorder::RecordedCounter::value() const {
-    return card->counter({{}, channel, encoder});
-}
 
 // ---- selection
 
@@ -108,34 +104,30 @@ void WireTap::follow(sim::WireId wire, bool wanted) {
     kernel_.subscribe(wire, id_, followers_[sim::Kernel::index(wire)] > 0);
 }
 
-WaveRecorder::WaveRecorder(Rack& rack, const WaveSettings& settings)
-    : rack_(rack), patterns_(settings.signals), tap_(settings.tap), register_period_(settings.register_period) {
+Recorder::Recorder(Rack& rack, const RecorderSettings& settings)
+    : rack_(rack), patterns_(settings.signals), tap_(settings.tap), period_(settings.period) {
     buffer_.reserve(buffer_size);
     lag_ = recorded_within;
 }
 
-WaveRecorder::~WaveRecorder() {
+Recorder::~Recorder() {
     stop_listening();
 }
 
-Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const WaveSettings& settings) {
-    std::unique_ptr<WaveRecorder> out(new WaveRecorder(rack, settings));
+Result<std::unique_ptr<Recorder>> Recorder::create(Rack& rack, const RecorderSettings& settings) {
+    std::unique_ptr<Recorder> out(new Recorder(rack, settings));
     out->choose_axes();
     out->choose_wires();
     out->choose_counters();
-    if (out->signals_.empty())
+    if (out->declared_.channels.empty())
         return fail(ErrorKind::invalid_input,
                     fmt::format("No signal fits '{}'; nothing was recorded. Signals are called like X.step, X.enc_a or "
                                 "motion.xlmtp; * and ? stand for anything.",
                                 fmt::join(settings.signals, "', '")));
-    if (settings.sink) {
-        out->sink_ = settings.sink(out->signals_);
-    } else {
-        const Duration unit = settings.unit > Duration{0} ? settings.unit : out->coarsest_unit();
-        MOTIONRACK_TRY(out->sink_, make_wave_sink({settings.path, settings.format, unit, rack.kernel().now(),
-                                                   rack.config().name, settings.version},
-                                                  out->signals_));
-    }
+    out->declared_.start = rack.kernel().now();
+    out->declared_.edge_unit = out->edge_unit();
+    out->declared_.rack_name = rack.config().name;
+    MOTIONRACK_TRY(out->sink_, settings.sink(out->declared_));
     if (!rack.started()) {
         out->id_ = rack.kernel().add(*out, sim::Phase::observers, "wave recorder");
         out->is_device_ = true;
@@ -144,12 +136,12 @@ Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const Wav
     return out;
 }
 
-bool WaveRecorder::wanted(const std::string& name) const {
+bool Recorder::wanted(const std::string& name) const {
     return patterns_.empty() ||
            std::any_of(patterns_.begin(), patterns_.end(), [&](const std::string& p) { return matches(p, name); });
 }
 
-const std::string* WaveRecorder::wanted_name(sim::WireId wire) const {
+const std::string* Recorder::wanted_name(sim::WireId wire) const {
     for (std::size_t i = 0;; ++i) {
         const std::string& name = rack_.kernel().wire_name(wire, i);
         if (name.empty()) return nullptr;
@@ -157,40 +149,41 @@ const std::string* WaveRecorder::wanted_name(sim::WireId wire) const {
     }
 }
 
-std::size_t WaveRecorder::add(WaveSignal signal) {
-    signals_.push_back(std::move(signal));
-    return signals_.size() - 1;
+std::size_t Recorder::add(Channel channel) {
+    declared_.channels.push_back(std::move(channel));
+    return declared_.channels.size() - 1;
 }
 
 /// Lines of a bus shared by cards have edges as close as its timing allows, those of a scale as close as its count
 /// rate does.
-Duration WaveRecorder::coarsest_unit() const {
+Duration Recorder::edge_unit() const {
     Duration unit = nanoseconds(100);
     for (const auto& card : rack_.cards())
-        for (const WaveSignal& signal : signals_)
-            if (card->shows(signal.scope, signal.name)) unit = std::min(unit, card->edge_unit());
+        for (const Channel& channel : declared_.channels)
+            if (card->shows(channel.scope(), channel.short_name())) unit = std::min(unit, card->edge_unit());
     for (const RunningStage& stage : rack_.stages())
-        for (const WaveSignal& signal : signals_)
-            if (signal.scope == stage.config.name && signal.name.rfind("scale.", 0) == 0)
+        for (const Channel& channel : declared_.channels)
+            if (channel.scope() == stage.config.name && channel.short_name().starts_with("scale."))
                 while (unit > 2 * parts::edge_spacing(scale_settings(stage.config))) unit = unit / 10;
     return unit;
 }
 
-void WaveRecorder::choose_axes() {
+void Recorder::choose_axes() {
     for (RunningAxis& axis : rack_.axes()) {
         const std::string name(1, axis.config.letter);
         parts::AxisMechanics& machine = *axis.machine;
         const bool pulses = !axis.servo && (wanted(name + ".step") || wanted(name + ".dir"));
         const bool lines = machine.has_encoder() && (wanted(name + ".enc_a") || wanted(name + ".enc_b"));
         if (pulses) {
-            const std::size_t step = add({name, "step"}), direction = add({name, "dir", false, 1, 1});
+            const std::size_t step = add({name + ".step"}),
+                              direction = add({name + ".dir", ChannelKind::level, {}, 1, 1});
             steps_.push_back(std::make_unique<StepListener>(*this, step, direction));
             heard_.emplace_back(axis.pulse_listeners.get(), steps_.back().get());
         }
         if (lines) {
             const parts::QuadratureLevels now = machine.encoder_lines(rack_.kernel().now());
-            const std::size_t a = add({name, "enc_a", false, 1, now.a != 0}),
-                              b = add({name, "enc_b", false, 1, now.b != 0});
+            const std::size_t a = add({name + ".enc_a", ChannelKind::level, {}, 1, now.a != 0}),
+                              b = add({name + ".enc_b", ChannelKind::level, {}, 1, now.b != 0});
             lines_.push_back(std::make_unique<LineListener>(*this, a, b));
             const std::int64_t counts = axis.config.encoder_counts_per_rev / axis.config.pulses_per_rev();
             lag_ = std::max(lag_, (counts + 1) * recorded_within);
@@ -199,104 +192,95 @@ void WaveRecorder::choose_axes() {
     }
 }
 
-void WaveRecorder::choose_wires() {
+void Recorder::choose_wires() {
     const sim::Kernel& kernel = rack_.kernel();
     const std::map<std::string, double> volts = volts_of_wires(rack_.config());
-    wire_signals_.assign(kernel.wire_count(), -1);
-    wires_begin_ = signals_.size();
+    wire_channels_.assign(kernel.wire_count(), -1);
+    wires_begin_ = declared_.channels.size();
     for (std::size_t i = 0; i < kernel.wire_count(); ++i) {
         const auto wire = static_cast<sim::WireId>(i);
         const std::string* chosen = wanted_name(wire);
         if (chosen == nullptr) continue;
-        const std::string& name = *chosen;
         if (kernel.lazy(wire)) {
             if (tap_ == nullptr || patterns_.empty()) continue;
             followed_.push_back(wire);
         }
-        const std::size_t dot = name.find('.');
-        const bool plain = dot == std::string::npos;
-        WaveSignal signal{plain ? "rack" : name.substr(0, dot), plain ? name : name.substr(dot + 1)};
-        if (const auto analog = volts.find(name); analog != volts.end()) signal.unit = analog->second;
-        signal.is_number = signal.unit != 1 || kernel.wire_bits(wire) > 1;
-        signal.initial = kernel.level(wire);
-        wire_signals_[i] = static_cast<std::int64_t>(add(std::move(signal)));
+        Channel channel{*chosen};
+        if (kernel.wire_bits(wire) > 1) channel.kind = ChannelKind::number;
+        if (const auto analog = volts.find(*chosen); analog != volts.end() && analog->second != 1) {
+            channel.kind = ChannelKind::number;
+            channel.unit = "V";
+            channel.scale = analog->second;
+        }
+        channel.initial = kernel.level(wire);
+        wire_channels_[i] = static_cast<std::int64_t>(add(std::move(channel)));
     }
-    wires_end_ = signals_.size();
+    wires_end_ = declared_.channels.size();
 }
 
-void WaveRecorder::choose_counters() {
+void Recorder::choose_counters() {
     for (const auto& card : rack_.cards())
         for (const CardCounter& each : card->counters()) {
-            if (!wanted(card->name() + "." + each.name)) continue;
-            RecordedCounter counter{card.get(), each.channel, each.encoder, 0};
-            counter.signal = add({card->name(), each.name, true, 1, counter.value()});
-            counters_.push_back(counter);
+            const std::string name = card->name() + "." + each.name;
+            if (!wanted(name)) continue;
+            counters_.push_back({card.get(), each, add({name, ChannelKind::counter, {}, 1, card->counter(each)})});
         }
 }
 
 // ---- recording
 
-void WaveRecorder::begin() {
+void Recorder::begin() {
     MOTIONRACK_ASSERT(is_device_);
     rack_.kernel().schedule(id_, rack_.kernel().now());
 }
 
-void WaveRecorder::push(Instant at, std::size_t signal, std::int64_t value, std::uint32_t place) {
+void Recorder::push(Instant at, std::size_t channel, std::int64_t value, std::uint32_t place) {
     if (buffer_.size() == buffer_size) {
         ++lost_;
         return;
     }
-    buffer_.push_back({at, static_cast<std::uint32_t>(signal), place, value});
+    buffer_.push_back({at, static_cast<std::uint32_t>(channel), place, value});
     if (buffer_.size() > buffer_size / 2) rack_.kernel().break_run();
 }
 
-void WaveRecorder::wire_changed(sim::WireId wire, int level, Instant now) {
-    const std::int64_t signal = wire_signals_[sim::Kernel::index(wire)];
-    if (signal >= 0) push(now, static_cast<std::size_t>(signal), level);
+void Recorder::wire_changed(sim::WireId wire, int level, Instant now) {
+    const std::int64_t channel = wire_channels_[sim::Kernel::index(wire)];
+    if (channel >= 0) push(now, static_cast<std::size_t>(channel), level);
 }
 
-void WaveRecorder::on_scheduled(Instant now) {
-    look_at_cards(now);
-    rack_.kernel().schedule(id_, now + register_period_);
+void Recorder::on_scheduled(Instant now) {
+    sample(now);
+    rack_.kernel().schedule(id_, now + period_);
 }
 
-void WaveRecorder::look_at_cards(Instant now) {
-    for (const RecordedCounter& counter : counters_) push(now, counter.signal, counter.value());
+void Recorder::sample(Instant now) {
+    for (const SampledCounter& one : counters_) push(now, one.channel, one.card->counter(one.counter));
 }
 
-void WaveRecorder::drain() {
-    write_before(never);
-}
-
-void WaveRecorder::drain_settled() {
-    write_before(rack_.kernel().now() - lag_);
-}
-
-void WaveRecorder::write_before(Instant end) {
+void Recorder::hand_over(Instant end) {
     const Instant now = rack_.kernel().now();
     for (const auto& listener : steps_) listener->settle(now);
-    std::stable_sort(buffer_.begin(), buffer_.end(), [](const WaveEvent& a, const WaveEvent& b) {
+    std::stable_sort(buffer_.begin(), buffer_.end(), [](const BufferedChange& a, const BufferedChange& b) {
         return a.at != b.at ? a.at < b.at : a.place < b.place;
     });
     const auto rest =
-        std::partition_point(buffer_.begin(), buffer_.end(), [end](const WaveEvent& event) { return event.at < end; });
-    for (auto event = buffer_.begin(); event != rest; ++event) {
-        last_ = std::max(last_, event->at);  // after drain() a pulse's end may follow a later change
-        sink_->change(event->signal, event->value, last_);
-        ++changes_;
+        std::partition_point(buffer_.begin(), buffer_.end(), [end](const BufferedChange& one) { return one.at < end; });
+    for (auto one = buffer_.begin(); one != rest; ++one) {
+        last_ = std::max(last_, one->at);  // after drain() a pulse's end may follow a later change
+        sink_->change(one->channel, one->value, last_);
     }
     buffer_.erase(buffer_.begin(), rest);
 }
 
 /// Parts of the rack store their listeners, so this follows everything that can fail.
-void WaveRecorder::listen() {
+void Recorder::listen() {
     for (const auto& [fork, listener] : heard_) fork->add(*listener);
     recording_ = true;
     for (const sim::WireId wire : followed_) tap_->follow(wire, true);
     rack_.wire_listeners().add(*this);
 }
 
-void WaveRecorder::stop_listening() {
+void Recorder::stop_listening() {
     for (const auto& [fork, listener] : heard_) fork->remove(*listener);
     heard_.clear();
     if (!recording_) return;
@@ -306,7 +290,7 @@ void WaveRecorder::stop_listening() {
     for (const sim::WireId wire : followed_) tap_->follow(wire, false);
 }
 
-Result<void> WaveRecorder::finish() {
+Result<void> Recorder::finish() {
     poll();
     drain();
     Result<void> ended = sink_->close(std::max(rack_.kernel().now(), last_));

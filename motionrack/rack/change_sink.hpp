@@ -1,0 +1,68 @@
+// Channels of a recorder, and the place to which their changes go.
+//
+//   Recorder ──Declaration──► SinkMaker ──► ChangeSink ◄── change, change, ... settle ... close ── Recorder
+//
+// A sink runs between the runs of the kernel: it may allocate and write.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <motionrack/base/result.hpp>
+#include <motionrack/base/time.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rack {
+
+enum class ChannelKind : std::uint8_t {
+    level,   ///< 0 or 1
+    number,  ///< a voltage, a word of a bus
+    counter  ///< a position counter of a card, sampled
+};
+
+/// A recorded source of values: a wire, a pulse line, a counter.
+struct Channel {
+    std::string name;  ///< "X.step", "motion.xlmtp", "estop"
+    ChannelKind kind = ChannelKind::level;
+    std::string_view unit = {};  ///< "V"; empty: none
+    double scale = 1;            ///< value in `unit` = change's value times this
+    std::int64_t initial = 0;    ///< value at the start of the recording
+
+    bool is_level() const { return kind == ChannelKind::level; }
+    /// "X" of "X.step", "rack" of "estop".
+    std::string scope() const { return dot() == std::string::npos ? "rack" : name.substr(0, dot()); }
+    /// "step" of "X.step", "estop" of "estop".
+    std::string short_name() const { return dot() == std::string::npos ? name : name.substr(dot() + 1); }
+    /// Whole numbers stay exact.
+    double shown(std::int64_t value) const { return static_cast<double>(value) * scale; }
+
+  private:
+    std::size_t dot() const { return name.find('.'); }
+};
+
+class ChangeSink {
+  public:
+    virtual ~ChangeSink() = default;
+    /// Receives a new value of channel `index`. `at` must not be earlier than the previous one.
+    virtual void change(std::size_t index, std::int64_t value, Instant at) = 0;
+    /// Ends the recording at `end`. Errors: io, the first error.
+    virtual Result<void> close(Instant end) { return (void)end, Result<void>(); }
+    /// Returns true if close() may be retried after an error, with further changes before it.
+    virtual bool can_end_again() const { return true; }
+};
+
+/// What a recorder tells its sink at the start.
+struct Declaration {
+    std::vector<Channel> channels;
+    Instant start{};
+    Duration edge_unit = nanoseconds(100);  ///< the coarsest unit, a power of ten, that shows every edge that cards and
+                                            ///< parts drive
+    std::string rack_name;
+};
+
+/// Errors: those of the sink; then nothing is recorded.
+using SinkMaker = std::function<Result<std::shared_ptr<ChangeSink>>(const Declaration& declared)>;
+
+}  // namespace motionrack::rack

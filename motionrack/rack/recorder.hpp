@@ -1,0 +1,138 @@
+// Records wires, pulses, encoder lines and card values of a running rack into a sink while it runs.
+//
+//   kernel wires ──┐
+//   pulse edges ───┼──► changes in a buffer ──drain(), between runs, in order of time──► ChangeSink (VCD, CSV, HDF5, memory)
+//   encoder edges ─┤
+//   LP, EP ────────┘ sampled every period
+//
+// A pulse of X.step lasts half the interval to the next one, at most 5 us. X.dir changes 250 ns before the first pulse
+// in the new direction. Pins that the card drives on demand (its pulse outputs) are recorded directly if a pattern
+// names them and a WireTap exists.
+#pragma once
+
+#include <memory>
+#include <motionrack/rack/change_sink.hpp>
+#include <motionrack/rack/rack.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::rack {
+
+/// Drives on-demand pins: subscribes to the wires that have followers.
+class WireTap final : public sim::Device {
+  public:
+    /// Call before the rack starts and after everything else is built.
+    explicit WireTap(sim::Kernel& kernel);
+    /// Adds or removes a follower; a wire stays subscribed while it has followers.
+    void follow(sim::WireId wire, bool wanted);
+    void on_scheduled(Instant) override {}
+
+  private:
+    sim::Kernel& kernel_;
+    sim::DeviceId id_;
+    std::vector<int> followers_;  ///< follower count of each kernel wire
+};
+
+struct RecorderSettings {
+    std::vector<std::string> signals;   ///< patterns with * and ?, over full names ("X.step", "motion.xlmtp"); empty:
+                                        ///< all except pins driven on demand
+    Duration period = milliseconds(1);  ///< sampling period of LP and EP
+    WireTap* tap = nullptr;             ///< source of pins driven on demand
+    SinkMaker sink = {};                ///< must not be empty
+};
+
+class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
+  public:
+    /// Before the rack starts: creates a device that samples the registers by itself after begin(). In a running rack:
+    /// its owner calls poll(). Errors: those of the sink; invalid_input if no signal matches the patterns. On error the
+    /// rack is unchanged.
+    static Result<std::unique_ptr<Recorder>> create(Rack& rack, const RecorderSettings& settings);
+    ~Recorder() override;
+
+    /// Call after the rack has started, if the recorder was created before that.
+    void begin();
+    /// Samples the registers. Call between runs.
+    void poll() { sample(rack_.kernel().now()); }
+    /// Hands the buffered changes to the sink. Call between runs.
+    void drain() { hand_over(never); }
+    /// Hands over the buffered changes except those of the last microseconds, which may be incomplete. The recording
+    /// does not depend on the instants of the calls. Call between runs.
+    void drain_settled() { hand_over(rack_.kernel().now() - lag_); }
+    /// Ends the recording and stops listening. Errors: io; the recording then continues, so that finish() can be
+    /// retried.
+    Result<void> finish();
+    /// Returns true if the last finish() failed.
+    bool failed() const { return failed_; }
+    /// Returns true if finish() may be retried after a failure.
+    bool can_end_again() const { return sink_->can_end_again(); }
+    Duration period() const { return period_; }
+
+    void on_scheduled(Instant now) override;
+    void wire_changed(sim::WireId wire, int level, Instant now) override;
+
+  private:
+    struct BufferedChange {
+        Instant at{};
+        std::uint32_t channel = 0;
+        std::uint32_t place = 0;  ///< order among the changes of its instant
+        std::int64_t value = 0;
+    };
+    /// Edges are delivered with a delay, so their order follows their signals; wires precede them in the order of their
+    /// changes. Both tracks of an encoder share the place of the first. If it moves by many counts at one instant, its
+    /// edges keep their order.
+    std::uint32_t place_of(std::size_t channel) const {
+        return wires_begin_ <= channel && channel < wires_end_ ? 0 : static_cast<std::uint32_t>(channel + 1);
+    }
+    /// Listens to the pulses of one axis.
+    class StepListener;
+    /// Listens to the encoder of one axis.
+    class LineListener;
+    /// LP or EP of a card's channel.
+    struct SampledCounter {
+        Card* card = nullptr;
+        CardCounter counter;
+        std::size_t channel = 0;
+    };
+
+    Recorder(Rack& rack, const RecorderSettings& settings);
+    bool wanted(const std::string& name) const;
+    /// Returns the first of the wire's names that a pattern selects, or nullptr.
+    const std::string* wanted_name(sim::WireId wire) const;
+    std::size_t add(Channel channel);
+    Duration edge_unit() const;
+    void choose_axes();
+    void choose_wires();
+    void choose_counters();
+    void listen();
+    void stop_listening();
+    void push(Instant at, std::size_t channel, std::int64_t value) { push(at, channel, value, place_of(channel)); }
+    void push(Instant at, std::size_t channel, std::int64_t value, std::uint32_t place);
+    void sample(Instant now);
+    void hand_over(Instant end);
+
+    static constexpr std::size_t buffer_size = 1 << 21;
+
+    Rack& rack_;
+    std::vector<std::string> patterns_;
+    WireTap* tap_;
+    Duration period_;
+    Duration lag_{0};  // maximum delay of an edge
+    sim::DeviceId id_{};
+    bool is_device_ = false;
+    bool recording_ = false;
+    bool failed_ = false;
+    Declaration declared_;
+    std::shared_ptr<ChangeSink> sink_;
+    std::size_t wires_begin_ = 0, wires_end_ = 0;  // range of the channels that are kernel wires
+    std::vector<std::int64_t> wire_channels_;      // channel of each kernel wire, -1: not recorded
+    std::vector<std::unique_ptr<StepListener>> steps_;
+    std::vector<std::unique_ptr<LineListener>> lines_;
+    std::vector<std::pair<EdgeFanout*, sim::EdgeListener*>> heard_;  ///< listeners and the fanouts they belong to
+    std::vector<sim::WireId> followed_;
+    std::vector<SampledCounter> counters_;
+    std::vector<BufferedChange> buffer_;
+    std::uint64_t lost_ = 0;
+    Instant last_{};
+};
+
+}  // namespace motionrack::rack
