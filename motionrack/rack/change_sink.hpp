@@ -17,20 +17,23 @@
 namespace motionrack::rack {
 
 enum class ChannelKind : std::uint8_t {
-    level,   ///< 0 or 1
-    number,  ///< a voltage, a word of a bus
-    counter  ///< a position counter of a card, sampled
+    level,    ///< 0 or 1
+    number,   ///< a voltage, a word of a bus
+    counter,  ///< a position counter of a card, sampled
+    steps,    ///< motor pulses: each change is a pulse, +1 or -1
+    counts    ///< an encoder: each change is a count, its value the new count
 };
 
 /// A recorded source of values: a wire, a pulse line, a counter.
 struct Channel {
     std::string name;  ///< "X.step", "motion.xlmtp", "estop"
     ChannelKind kind = ChannelKind::level;
-    std::string_view unit = {};  ///< "V"; empty: none
+    std::string_view unit = {};  ///< "V", "step", "count"; empty: none
     double scale = 1;            ///< value in `unit` = change's value times this
     std::int64_t initial = 0;    ///< value at the start of the recording
 
     bool is_level() const { return kind == ChannelKind::level; }
+    bool is_wire() const { return is_level() || kind == ChannelKind::number; }
     /// "X" of "X.step", "rack" of "estop".
     std::string scope() const { return dot() == std::string::npos ? "rack" : name.substr(0, dot()); }
     /// "step" of "X.step", "estop" of "estop".
@@ -47,6 +50,8 @@ class ChangeSink {
     virtual ~ChangeSink() = default;
     /// Receives a new value of channel `index`. `at` must not be earlier than the previous one.
     virtual void change(std::size_t index, std::int64_t value, Instant at) = 0;
+    /// The changes up to `at` were handed over.
+    virtual void settle(Instant at) { (void)at; }
     /// Ends the recording at `end`. Errors: io, the first error.
     virtual Result<void> close(Instant end) { return (void)end, Result<void>(); }
     /// Returns true if close() may be retried after an error, with further changes before it.

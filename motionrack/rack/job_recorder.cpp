@@ -1,4 +1,4 @@
-// Collects the events of a job and passes them to the recording.
+// Writes the events, samples and inputs of a job to its recording.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,147 +16,73 @@ std::string lower_letter(char letter) {
     return std::string(1, static_cast<char>(letter - 'A' + 'a'));
 }
 
-/// Converts "motion.xlmtp" to "wires/motion/xlmtp"; names without a dot belong to the rack.
-std::string wire_path(const std::string& name) {
-    const std::size_t dot = name.find('.');
-    return dot == std::string::npos ? "wires/rack/" + name
-                                    : "wires/" + name.substr(0, dot) + '/' + name.substr(dot + 1);
+/// Fills in the axes, and returns their indexes.
+std::vector<int> fill_in_axes(trace::RecordingHead& head, Rack& rack) {
+    std::vector<int> indexes;
+    head.axes.clear();
+    const control::MachineLimits limits = rack.config().limits();
+    for (const RunningAxis& axis : rack.axes()) {
+        const RackAxis& config = axis.config;
+        const control::AxisLimits& limit = limits[static_cast<std::size_t>(config.index())];
+        head.axes.push_back({std::string(1, config.letter), std::string(config.unit()), axis.servo != nullptr,
+                             config.pulses_per_unit(), config.counts_per_unit(), config.initial_position,
+                             limit.min_position, limit.max_position, limit.max_velocity, limit.max_accel});
+        indexes.push_back(config.index());
+    }
+    return indexes;
+}
+
+/// "axes/x/steps", "cards/motion/xlp", "wires/motion/xlmtp". Levels and words of wires are stored as they are.
+trace::RecordedSignal signal_of(const Channel& channel) {
+    trace::RecordedSignal out{channel.name, channel.scope() + "/" + channel.short_name(), trace::SignalKind::levels, "",
+                              channel.initial};
+    if (channel.is_wire()) {
+        out.path = "wires/" + out.path;
+        return out;
+    }
+    out.unit = channel.unit;
+    if (channel.kind == ChannelKind::counter) {
+        out.path = "cards/" + out.path;
+        return out;
+    }
+    out.path = "axes/" + lower_letter(channel.name.front()) + "/" + channel.short_name();
+    out.kind = channel.kind == ChannelKind::steps ? trace::SignalKind::steps : trace::SignalKind::counts;
+    return out;
 }
 
 }  // namespace
 
-class JobRecorder::Observer final : public sim::EdgeListener {
-  public:
-    /// `counts`: values are counts after the edge, else directions.
-    Observer(JobRecorder& recorder, std::uint32_t signal, bool counts)
-        : recorder_(recorder), signal_(signal), counts_(counts) {}
+JobRecorder::RecordingSink::RecordingSink(trace::RecordingWriter file, Instant start)
+    : writer(std::move(file)), began(start), next_flush(start + min_flush_period) {}
 
-    void edges(const sim::EdgeBatch& batch) override {
-        std::int64_t count = batch.first_count;
-        for (std::uint32_t i = 0; i < batch.size; ++i, count += batch.step)
-            recorder_.push(batch.origin + batch.at[i] * batch.tick, signal_, counts_ ? count : batch.step);
-    }
-
-  private:
-    JobRecorder& recorder_;
-    std::uint32_t signal_;
-    bool counts_;
-};
-
-// ---- recorded signals
-
-JobRecorder::JobRecorder(Rack& rack, trace::RecordingHead head) : rack_(rack), head_(std::move(head)) {
-    buffer_.reserve(buffer_size);
+void JobRecorder::RecordingSink::settle(Instant at) {
+    if (at < next_flush && writer.events() - flushed_events < max_unflushed) return;
+    writer.flush(at);
+    flushed_events = writer.events();
+    next_flush = at + std::max(min_flush_period, (at - began) / 10);
 }
 
-JobRecorder::~JobRecorder() {
-    stop_listening();
+Result<void> JobRecorder::RecordingSink::close(Instant at) {
+    end.at = at;
+    return writer.close(end);
 }
 
 Result<std::unique_ptr<JobRecorder>> JobRecorder::create(Rack& rack, const std::string& path,
                                                          trace::RecordingHead head) {
-    std::unique_ptr<JobRecorder> out(new JobRecorder(rack, std::move(head)));
-    out->add_axes();
-    out->add_wires();
-    out->add_counters();
-    out->began_ = rack.kernel().now();
-    out->next_flush_ = out->began_ + min_flush_period;
-    MOTIONRACK_TRY(out->writer_, trace::RecordingWriter::create(path, out->head_, out->began_));
-    out->id_ = rack.kernel().add(*out, sim::Phase::observers, "recorder");
-    out->listen();
+    auto out = std::make_unique<JobRecorder>();
+    out->axis_indexes_ = fill_in_axes(head, rack);
+    out->sampled_.resize(head.axes.size());
+    RecorderSettings settings;
+    settings.events = true;
+    settings.sink = [&](const Declaration& declared) -> Result<std::shared_ptr<ChangeSink>> {
+        head.signals.clear();
+        for (const Channel& channel : declared.channels) head.signals.push_back(signal_of(channel));
+        MOTIONRACK_TRY(trace::RecordingWriter writer, trace::RecordingWriter::create(path, head, declared.start));
+        out->file_ = std::make_shared<RecordingSink>(std::move(writer), declared.start);
+        return out->file_;
+    };
+    MOTIONRACK_TRY(out->recorder_, Recorder::create(rack, settings));
     return out;
-}
-
-std::uint32_t JobRecorder::add(trace::RecordedSignal signal) {
-    head_.signals.push_back(std::move(signal));
-    return static_cast<std::uint32_t>(head_.signals.size() - 1);
-}
-
-void JobRecorder::add_axes() {
-    head_.axes.clear();
-    head_.signals.clear();
-    const control::MachineLimits limits = rack_.config().limits();
-    for (RunningAxis& axis : rack_.axes()) {
-        const RackAxis& config = axis.config;
-        const control::AxisLimits& limit = limits[static_cast<std::size_t>(config.index())];
-        const std::string name(1, config.letter);
-        head_.axes.push_back({name, std::string(config.unit()), axis.servo != nullptr, config.pulses_per_unit(),
-                              config.counts_per_unit(), config.initial_position, limit.min_position, limit.max_position,
-                              limit.max_velocity, limit.max_accel});
-        axis_indexes_.push_back(config.index());
-        const std::string folder = "axes/" + lower_letter(config.letter);
-        if (!axis.servo) {
-            const std::uint32_t steps = add({name + ".steps", folder + "/steps", trace::SignalKind::steps, "step", 0});
-            listeners_.emplace_back(axis.pulse_listeners.get(), std::make_unique<Observer>(*this, steps, false));
-        }
-        if (axis.machine->has_encoder()) {
-            const std::int64_t count = axis.machine->encoder().count(rack_.kernel().now());
-            const std::uint32_t counts =
-                add({name + ".encoder", folder + "/encoder", trace::SignalKind::counts, "count", count});
-            listeners_.emplace_back(axis.encoder_listeners.get(), std::make_unique<Observer>(*this, counts, true));
-        }
-    }
-    sampled_.resize(head_.axes.size());
-}
-
-void JobRecorder::add_wires() {
-    const sim::Kernel& kernel = rack_.kernel();
-    wire_signals_.assign(kernel.wire_count(), -1);
-    for (std::size_t i = 0; i < kernel.wire_count(); ++i) {
-        const auto wire = static_cast<sim::WireId>(i);
-        if (kernel.lazy(wire)) continue;  // pulse outputs and the like are driven only while observed
-        const std::string& name = kernel.wire_name(wire);
-        wire_signals_[i] = add({name, wire_path(name), trace::SignalKind::levels, "", kernel.level(wire)});
-    }
-}
-
-void JobRecorder::add_counters() {
-    for (const auto& card : rack_.cards())
-        for (const CardCounter& counter : card->counters()) {
-            const std::uint32_t signal =
-                add({card->name() + "." + counter.name, "cards/" + card->name() + "/" + counter.name,
-                     trace::SignalKind::levels, counter.encoder ? "count" : "step", card->counter(counter)});
-            counters_.push_back({card.get(), counter, signal});
-        }
-}
-
-// ---- recording
-
-void JobRecorder::listen() {
-    for (const auto& [fork, listener] : listeners_) fork->add(*listener);
-    rack_.wire_listeners().add(*this);
-    listening_ = true;
-}
-
-void JobRecorder::stop_listening() {
-    if (!listening_) return;
-    listening_ = false;
-    for (const auto& [fork, listener] : listeners_) fork->remove(*listener);
-    rack_.wire_listeners().remove(*this);
-    if (rack_.started()) rack_.kernel().schedule(id_, never);
-}
-
-void JobRecorder::begin() {
-    rack_.kernel().schedule(id_, rack_.kernel().now());
-}
-
-void JobRecorder::push(Instant at, std::uint32_t signal, std::int64_t value) {
-    if (buffer_.size() == buffer_size) {
-        ++lost_;
-        return;
-    }
-    buffer_.push_back({at, value, signal});
-    if (buffer_.size() > buffer_size / 2) rack_.kernel().break_run();
-}
-
-void JobRecorder::wire_changed(sim::WireId wire, int level, Instant now) {
-    const std::int64_t signal = wire_signals_[sim::Kernel::index(wire)];
-    if (signal >= 0) push(now, static_cast<std::uint32_t>(signal), level);
-}
-
-void JobRecorder::on_scheduled(Instant now) {
-    for (const Counter& one : counters_) push(now, one.signal, one.card->counter(one.counter));
-    rack_.kernel().schedule(id_, now + counter_period);
 }
 
 void JobRecorder::sample(const MonitorSample& sample, double deviation_mm) {
@@ -165,17 +91,7 @@ void JobRecorder::sample(const MonitorSample& sample, double deviation_mm) {
         sampled_[i] = {sample.position[axis], sample.commanded[axis], sample.velocity[axis], sample.accel[axis],
                        sample.volts[axis]};
     }
-    writer_.sample(sample.at, deviation_mm, sampled_);
-}
-
-void JobRecorder::drain() {
-    for (const JobEvent& event : buffer_) writer_.event(event.signal, event.at, event.value);
-    buffer_.clear();
-    const Instant now = rack_.kernel().now();
-    if (now < next_flush_ && writer_.events() - flushed_events_ < max_unflushed) return;
-    writer_.flush(now);
-    flushed_events_ = writer_.events();
-    next_flush_ = now + std::max(min_flush_period, (now - began_) / 10);
+    file_->writer.sample(sample.at, deviation_mm, sampled_);
 }
 
 namespace {
@@ -215,18 +131,9 @@ std::vector<trace::OutcomeField> facts_of(const JobOutcome& outcome) {
 }  // namespace
 
 Result<void> JobRecorder::finish(const JobOutcome& outcome, trace::ReportData report) {
-    stop_listening();
-    const Instant now = rack_.kernel().now();
-    for (const Counter& one : counters_) push(now, one.signal, one.card->counter(one.counter));
-    drain();
-    trace::RecordingEnd end;
-    end.at = now;
-    end.outcome = facts_of(outcome);
-    end.report = std::move(report);
-    const Result<void> closed = writer_.close(end);
-    if (!closed || lost_ == 0) return closed;
-    return fail(ErrorKind::io,
-                fmt::format("{} events of one instant exceed the limit of a recording and were omitted.", lost_));
+    file_->end.outcome = facts_of(outcome);
+    file_->end.report = std::move(report);
+    return recorder_->finish();
 }
 
 }  // namespace motionrack::rack

@@ -91,6 +91,24 @@ class Recorder::LineListener final : public sim::EdgeListener {
     std::size_t a_, b_;
 };
 
+class Recorder::EventListener final : public sim::EdgeListener {
+  public:
+    /// `counts`: values are counts after the edge, else directions.
+    EventListener(Recorder& recorder, std::size_t channel, bool counts)
+        : recorder_(recorder), channel_(channel), counts_(counts) {}
+
+    void edges(const sim::EdgeBatch& batch) override {
+        std::int64_t count = batch.first_count;
+        for (std::uint32_t i = 0; i < batch.size; ++i, count += batch.step)
+            recorder_.push(batch.origin + batch.at[i] * batch.tick, channel_, counts_ ? count : batch.step);
+    }
+
+  private:
+    Recorder& recorder_;
+    std::size_t channel_;
+    bool counts_;
+};
+
 // ---- selection
 
 WireTap::WireTap(sim::Kernel& kernel)
@@ -105,7 +123,7 @@ void WireTap::follow(sim::WireId wire, bool wanted) {
 }
 
 Recorder::Recorder(Rack& rack, const RecorderSettings& settings)
-    : rack_(rack), patterns_(settings.signals), tap_(settings.tap), period_(settings.period) {
+    : rack_(rack), patterns_(settings.signals), tap_(settings.tap), period_(settings.period), events_(settings.events) {
     buffer_.reserve(buffer_size);
     lag_ = recorded_within;
 }
@@ -129,7 +147,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(Rack& rack, const RecorderSet
     out->declared_.rack_name = rack.config().name;
     MOTIONRACK_TRY(out->sink_, settings.sink(out->declared_));
     if (!rack.started()) {
-        out->id_ = rack.kernel().add(*out, sim::Phase::observers, "wave recorder");
+        out->id_ = rack.kernel().add(*out, sim::Phase::observers, "recorder");
         out->is_device_ = true;
     }
     out->listen();
@@ -170,26 +188,44 @@ Duration Recorder::edge_unit() const {
 
 void Recorder::choose_axes() {
     for (RunningAxis& axis : rack_.axes()) {
-        const std::string name(1, axis.config.letter);
-        parts::AxisMechanics& machine = *axis.machine;
-        const bool pulses = !axis.servo && (wanted(name + ".step") || wanted(name + ".dir"));
-        const bool lines = machine.has_encoder() && (wanted(name + ".enc_a") || wanted(name + ".enc_b"));
-        if (pulses) {
-            const std::size_t step = add({name + ".step"}),
-                              direction = add({name + ".dir", ChannelKind::level, {}, 1, 1});
-            steps_.push_back(std::make_unique<StepListener>(*this, step, direction));
-            heard_.emplace_back(axis.pulse_listeners.get(), steps_.back().get());
-        }
-        if (lines) {
-            const parts::QuadratureLevels now = machine.encoder_lines(rack_.kernel().now());
-            const std::size_t a = add({name + ".enc_a", ChannelKind::level, {}, 1, now.a != 0}),
-                              b = add({name + ".enc_b", ChannelKind::level, {}, 1, now.b != 0});
-            lines_.push_back(std::make_unique<LineListener>(*this, a, b));
-            const std::int64_t counts = axis.config.encoder_counts_per_rev / axis.config.pulses_per_rev();
-            lag_ = std::max(lag_, (counts + 1) * recorded_within);
-            heard_.emplace_back(axis.encoder_listeners.get(), lines_.back().get());
-        }
+        if (!axis.servo) choose_pulses(axis);
+        if (axis.machine->has_encoder()) choose_encoder(axis);
     }
+}
+
+void Recorder::choose_pulses(RunningAxis& axis) {
+    const std::string name(1, axis.config.letter);
+    sim::EdgeListener* listener = nullptr;
+    if (events_) {
+        if (!wanted(name + ".steps")) return;
+        const std::size_t steps = add({name + ".steps", ChannelKind::steps, "step"});
+        listener = others_.emplace_back(std::make_unique<EventListener>(*this, steps, false)).get();
+    } else {
+        if (!wanted(name + ".step") && !wanted(name + ".dir")) return;
+        const std::size_t step = add({name + ".step"}), direction = add({name + ".dir", ChannelKind::level, {}, 1, 1});
+        listener = steps_.emplace_back(std::make_unique<StepListener>(*this, step, direction)).get();
+    }
+    heard_.emplace_back(axis.pulse_listeners.get(), listener);
+}
+
+void Recorder::choose_encoder(RunningAxis& axis) {
+    const std::string name(1, axis.config.letter);
+    const Instant now = rack_.kernel().now();
+    if (events_) {
+        if (!wanted(name + ".encoder")) return;
+        const std::size_t counts =
+            add({name + ".encoder", ChannelKind::counts, "count", 1, axis.machine->encoder().count(now)});
+        others_.push_back(std::make_unique<EventListener>(*this, counts, true));
+    } else {
+        if (!wanted(name + ".enc_a") && !wanted(name + ".enc_b")) return;
+        const parts::QuadratureLevels levels = axis.machine->encoder_lines(now);
+        const std::size_t a = add({name + ".enc_a", ChannelKind::level, {}, 1, levels.a != 0}),
+                          b = add({name + ".enc_b", ChannelKind::level, {}, 1, levels.b != 0});
+        others_.push_back(std::make_unique<LineListener>(*this, a, b));
+        const std::int64_t counts = axis.config.encoder_counts_per_rev / axis.config.pulses_per_rev();
+        lag_ = std::max(lag_, (counts + 1) * recorded_within);
+    }
+    heard_.emplace_back(axis.encoder_listeners.get(), others_.back().get());
 }
 
 void Recorder::choose_wires() {
@@ -223,7 +259,9 @@ void Recorder::choose_counters() {
         for (const CardCounter& each : card->counters()) {
             const std::string name = card->name() + "." + each.name;
             if (!wanted(name)) continue;
-            counters_.push_back({card.get(), each, add({name, ChannelKind::counter, {}, 1, card->counter(each)})});
+            counters_.push_back(
+                {card.get(), each,
+                 add({name, ChannelKind::counter, each.encoder ? "count" : "step", 1, card->counter(each)})});
         }
 }
 
@@ -257,19 +295,26 @@ void Recorder::sample(Instant now) {
     for (const SampledCounter& one : counters_) push(now, one.channel, one.card->counter(one.counter));
 }
 
-void Recorder::hand_over(Instant end) {
-    const Instant now = rack_.kernel().now();
-    for (const auto& listener : steps_) listener->settle(now);
+/// Orders the changes before `end` by time; returns their end.
+std::vector<Recorder::BufferedChange>::iterator Recorder::order_before(Instant end) {
     std::stable_sort(buffer_.begin(), buffer_.end(), [](const BufferedChange& a, const BufferedChange& b) {
         return a.at != b.at ? a.at < b.at : a.place < b.place;
     });
-    const auto rest =
-        std::partition_point(buffer_.begin(), buffer_.end(), [end](const BufferedChange& one) { return one.at < end; });
+    return std::partition_point(buffer_.begin(), buffer_.end(),
+                                [end](const BufferedChange& one) { return one.at < end; });
+}
+
+void Recorder::hand_over(Instant end) {
+    const Instant now = rack_.kernel().now();
+    for (const auto& listener : steps_) listener->settle(now);
+    const auto rest = events_ ? buffer_.end() : order_before(end);
     for (auto one = buffer_.begin(); one != rest; ++one) {
-        last_ = std::max(last_, one->at);  // after drain() a pulse's end may follow a later change
-        sink_->change(one->channel, one->value, last_);
+        if (!events_)
+            one->at = last_ = std::max(last_, one->at);  // after drain() a pulse's end may follow a later change
+        sink_->change(one->channel, one->value, one->at);
     }
     buffer_.erase(buffer_.begin(), rest);
+    sink_->settle(std::min(now, end));
 }
 
 /// Parts of the rack store their listeners, so this follows everything that can fail.
@@ -295,8 +340,9 @@ Result<void> Recorder::finish() {
     drain();
     Result<void> ended = sink_->close(std::max(rack_.kernel().now(), last_));
     if (ended && lost_ > 0)
-        ended = fail(ErrorKind::io,
-                     fmt::format("{} changes of one instant exceed the limit of a recording and were omitted.", lost_));
+        ended =
+            fail(ErrorKind::io, fmt::format("{} {} of one instant exceed the limit of a recording and were omitted.",
+                                            lost_, events_ ? "events" : "changes"));
     failed_ = !ended;
     if (ended) stop_listening();
     return ended;

@@ -1,7 +1,7 @@
 // Records wires, pulses, encoder lines and card values of a running rack into a sink while it runs.
 //
 //   kernel wires ──┐
-//   pulse edges ───┼──► changes in a buffer ──drain(), between runs, in order of time──► ChangeSink (VCD, CSV, HDF5, memory)
+//   pulse edges ───┼──► changes in a buffer ──drain(), between runs, in order of time──► ChangeSink (VCD, CSV, HDF5)
 //   encoder edges ─┤
 //   LP, EP ────────┘ sampled every period
 //
@@ -39,6 +39,9 @@ struct RecorderSettings {
     Duration period = milliseconds(1);  ///< sampling period of LP and EP
     WireTap* tap = nullptr;             ///< source of pins driven on demand
     SinkMaker sink = {};                ///< must not be empty
+    /// Pulses and counts are handed over as they are (X.steps, X.encoder), in order of time within each channel; else
+    /// as levels of lines (X.step, X.dir, X.enc_a, X.enc_b), in order of time over all channels.
+    bool events = false;
 };
 
 class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
@@ -87,6 +90,8 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     class StepListener;
     /// Listens to the encoder of one axis.
     class LineListener;
+    /// Listens to the pulses or the encoder of one axis, whose edges stay events.
+    class EventListener;
     /// LP or EP of a card's channel.
     struct SampledCounter {
         Card* card = nullptr;
@@ -101,6 +106,8 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     std::size_t add(Channel channel);
     Duration edge_unit() const;
     void choose_axes();
+    void choose_pulses(RunningAxis& axis);
+    void choose_encoder(RunningAxis& axis);
     void choose_wires();
     void choose_counters();
     void listen();
@@ -108,6 +115,7 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     void push(Instant at, std::size_t channel, std::int64_t value) { push(at, channel, value, place_of(channel)); }
     void push(Instant at, std::size_t channel, std::int64_t value, std::uint32_t place);
     void sample(Instant now);
+    std::vector<BufferedChange>::iterator order_before(Instant end);
     void hand_over(Instant end);
 
     static constexpr std::size_t buffer_size = 1 << 21;
@@ -116,6 +124,7 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     std::vector<std::string> patterns_;
     WireTap* tap_;
     Duration period_;
+    bool events_;
     Duration lag_{0};  // maximum delay of an edge
     sim::DeviceId id_{};
     bool is_device_ = false;
@@ -126,7 +135,7 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     std::size_t wires_begin_ = 0, wires_end_ = 0;  // range of the channels that are kernel wires
     std::vector<std::int64_t> wire_channels_;      // channel of each kernel wire, -1: not recorded
     std::vector<std::unique_ptr<StepListener>> steps_;
-    std::vector<std::unique_ptr<LineListener>> lines_;
+    std::vector<std::unique_ptr<sim::EdgeListener>> others_;
     std::vector<std::pair<EdgeFanout*, sim::EdgeListener*>> heard_;  ///< listeners and the fanouts they belong to
     std::vector<sim::WireId> followed_;
     std::vector<SampledCounter> counters_;

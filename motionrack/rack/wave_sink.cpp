@@ -116,7 +116,8 @@ Result<std::shared_ptr<ChangeSink>> make_hdf5_sink(const WaveFile& file, const D
     for (const Channel& channel : declared.channels)
         head.signals.push_back({channel.scope() + '.' + channel.short_name(),
                                 "wires/" + channel.scope() + '/' + channel.short_name(), trace::SignalKind::levels,
-                                std::string(channel.unit), channel.initial, channel.scale});
+                                channel.kind == ChannelKind::number ? std::string(channel.unit) : "", channel.initial,
+                                channel.scale});
     MOTIONRACK_TRY(trace::RecordingWriter writer, trace::RecordingWriter::create(file.path, head, declared.start));
     return std::make_shared<Hdf5Sink>(std::move(writer));
 }
