@@ -219,7 +219,7 @@ TEST(Waves, TheUnitShowsEachEdgeThatAScaleOfItsCountRateHas) {
                  "[card.decoder]\ntype = \"grating_decoder\"\n" + grating +
                  "[stage.mask]\ncard = \"host\"\ninput = 0\n[stage.mask.scale]\nmax_count_rate_mhz = " + megahertz)
                  .config);
-        WireTap tap(rack.kernel());
+        RecorderTap tap(rack.kernel());
         const std::string path =
             (std::filesystem::temp_directory_path() / ("motionrack_unit_" + std::to_string(::getpid()) + ".vcd"))
                 .string();

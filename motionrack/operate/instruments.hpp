@@ -2,7 +2,6 @@
 #pragma once
 
 #include <motionrack/rack/frame_monitor.hpp>
-#include <motionrack/rack/periodic_sampler.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/recorder.hpp>
 #include <optional>
@@ -13,19 +12,17 @@ namespace motionrack::operate {
 class Instruments {
   public:
     /// Call before the rack starts; it must outlive this.
-    explicit Instruments(rack::Rack& rack) : tap_(rack.kernel()), sampler_(rack.kernel()) {
+    explicit Instruments(rack::Rack& rack) : tap_(rack.kernel()) {
         if (rack::grating_bus_of(rack) != nullptr) frames_.emplace(rack);
     }
 
-    /// For recordings of on-demand pins.
-    rack::WireTap& tap() { return tap_; }
-    rack::PeriodicSampler& sampler() { return sampler_; }
+    /// For recorders of the running rack.
+    rack::RecorderTap& tap() { return tap_; }
     /// Frames of the grating bus; nullptr: the rack has none.
     const rack::FrameMonitor* frames() const { return frames_ ? &*frames_ : nullptr; }
 
   private:
-    rack::WireTap tap_;
-    rack::PeriodicSampler sampler_;
+    rack::RecorderTap tap_;
     std::optional<rack::FrameMonitor> frames_;
 };
 

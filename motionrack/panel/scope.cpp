@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <motionrack/panel/scope.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
@@ -10,7 +11,6 @@ namespace motionrack::panel {
 namespace {
 
 constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
-constexpr Duration slack = milliseconds(20);  // longer than any slice
 
 }  // namespace
 
@@ -33,8 +33,12 @@ class Scope::Sink final : public rack::ChangeSink {
   public:
     Sink(Scope& scope, std::vector<rack::Channel> channels) : scope_(scope), channels_(std::move(channels)) {}
     void change(std::size_t index, std::int64_t value, Instant at) override {
-        const std::size_t place = scope_.places_[index];
-        if (place != nowhere) scope_.see(at, place, channels_[index].shown(value));
+        const double shown = channels_[index].shown(value);
+        const std::size_t wires = scope_.places_.size();
+        if (index >= wires)
+            scope_.see_sample(at, scope_.numbers_[index - wires], shown);
+        else if (scope_.places_[index] != nowhere)
+            scope_.see_edge(at, scope_.places_[index], shown);
     }
 
   private:
@@ -85,20 +89,26 @@ Result<void> Scope::arm(const ScopeSettings& settings) {
     trigger_place_ = settings.trigger.empty() ? nowhere : static_cast<std::size_t>(trigger - settings.channels.begin());
     base_.assign(settings.channels.size(), 0);
     for (std::size_t i = 0; i < settings.channels.size(); ++i) base_[i] = book_.find(settings.channels[i])->read();
-    if (!wires.empty()) MOTIONRACK_CHECK(listen_to_wires(wires));
+    MOTIONRACK_CHECK(record(wires));
     restart(machine_.now());
-    begin_numbers();
     return {};
 }
 
-Result<void> Scope::listen_to_wires(const std::vector<std::string>& wires) {
+Result<void> Scope::record(const std::vector<std::string>& wires) {
     rack::RecorderSettings settings;
     settings.signals = wires;
+    settings.period = settings_.period;
     settings.tap = &machine_.instruments().tap();
+    for (NumericChannel& number : numbers_) {
+        number.slow = number.channel->read();
+        settings.sampled.push_back({{number.channel->name, rack::ChannelKind::quantity},
+                                    [&number] { return std::bit_cast<std::int64_t>(number.value()); }});
+    }
     settings.sink = [this](const rack::Declaration& declared) {
         places_.clear();
-        for (const rack::Channel& channel : declared.channels) {
-            const auto found = std::find(settings_.channels.begin(), settings_.channels.end(), channel.name);
+        for (std::size_t i = 0; i + numbers_.size() < declared.channels.size(); ++i) {
+            const auto found =
+                std::find(settings_.channels.begin(), settings_.channels.end(), declared.channels[i].name);
             places_.push_back(found == settings_.channels.end()
                                   ? nowhere
                                   : static_cast<std::size_t>(found - settings_.channels.begin()));
@@ -106,26 +116,8 @@ Result<void> Scope::listen_to_wires(const std::vector<std::string>& wires) {
         return std::make_shared<Sink>(*this, declared.channels);
     };
     MOTIONRACK_TRY(recorder_, rack::Recorder::create(machine_.rack(), settings));
+    if (!numbers_.empty()) recorder_->begin();
     return {};
-}
-
-void Scope::begin_numbers() {
-    if (numbers_.empty()) return;
-    rows_ = (settings_.length + slack) / settings_.period + 2;
-    samples_.assign(static_cast<std::size_t>(rows_) * numbers_.size(), 0);
-    for (NumericChannel& number : numbers_) number.slow = number.channel->read();
-    first_sample_ = machine_.now();
-    written_ = seen_ = 0;
-    probing_ = true;
-    machine_.instruments().sampler().begin(settings_.period, [this](Instant now) { sample(now); });
-}
-
-/// Called within the kernel's run.
-void Scope::sample(Instant) {
-    double* row = &samples_[static_cast<std::size_t>(written_ % rows_) * numbers_.size()];
-    for (const NumericChannel& number : numbers_)
-        *row++ = number.channel->reader == ChannelReader::anytime ? number.channel->read() : number.slow;
-    ++written_;
 }
 
 void Scope::stop() {
@@ -135,8 +127,8 @@ void Scope::stop() {
 
 void Scope::detach() {
     recorder_.reset();
-    if (std::exchange(probing_, false)) machine_.instruments().sampler().end();
     edges_.clear();
+    for (NumericChannel& number : numbers_) number.samples.clear();
 }
 
 void Scope::restart(Instant now) {
@@ -159,9 +151,8 @@ void Scope::look_at(Instant at, double before, double value) {
 }
 
 /// Handles a change of a wire.
-void Scope::see(Instant at, std::size_t channel, double value) {
-    if (channel == trigger_place_ && state_ == ScopeState::armed)
-        look_at(at, last_value_.value_or(base_[channel]), value);
+void Scope::see_edge(Instant at, std::size_t place, double value) {
+    if (place == trigger_place_ && state_ == ScopeState::armed) look_at(at, last_value_.value_or(base_[place]), value);
     if (edges_.size() >= max_edges) {
         if (state_ == ScopeState::triggered) {
             full_ = true;
@@ -170,18 +161,13 @@ void Scope::see(Instant at, std::size_t channel, double value) {
         base_[edges_.front().channel] = edges_.front().value;
         edges_.pop_front();
     }
-    edges_.push_back({at, channel, value});
+    edges_.push_back({at, place, value});
 }
 
-/// Searches the samples since the last slice.
-void Scope::look_for_trigger() {
-    const auto column = std::find_if(numbers_.begin(), numbers_.end(),
-                                     [this](const NumericChannel& number) { return number.place == trigger_place_; });
-    for (; seen_ < written_ && state_ == ScopeState::armed && column != numbers_.end(); ++seen_) {
-        if (seen_ < written_ - rows_) continue;
-        const double value = sample_of(seen_, static_cast<std::size_t>(column - numbers_.begin()));
-        look_at(sample_time(seen_), last_value_.value_or(value), value);
-    }
+void Scope::see_sample(Instant at, NumericChannel& number, double value) {
+    if (number.place == trigger_place_ && state_ == ScopeState::armed) look_at(at, last_value_.value_or(value), value);
+    if (number.samples.empty()) number.first = at;
+    number.samples.push_back(value);
 }
 
 void Scope::forget_old(Instant now) {
@@ -190,6 +176,9 @@ void Scope::forget_old(Instant now) {
         base_[edges_.front().channel] = edges_.front().value;
         edges_.pop_front();
     }
+    for (NumericChannel& number : numbers_)
+        for (; !number.samples.empty() && number.first < from; number.first += settings_.period)
+            number.samples.pop_front();
 }
 
 void Scope::slice(Instant now) {
@@ -197,12 +186,9 @@ void Scope::slice(Instant now) {
     if (recorder_) recorder_->drain();
     for (NumericChannel& number : numbers_)
         if (number.channel->reader != ChannelReader::anytime) number.slow = number.channel->read();
-    if (state_ == ScopeState::armed) {
-        look_for_trigger();
-        if (trigger_place_ == nowhere && now - armed_at_ >= settings_.pre) {
-            state_ = ScopeState::triggered;
-            triggered_at_ = now;
-        }
+    if (state_ == ScopeState::armed && trigger_place_ == nowhere && now - armed_at_ >= settings_.pre) {
+        state_ = ScopeState::triggered;
+        triggered_at_ = now;
     }
     forget_old(now);
     if (state_ == ScopeState::triggered && now >= triggered_at_ - settings_.pre + settings_.length) finish();
@@ -228,19 +214,20 @@ void Scope::finish() {
         trace.at.push_back(to_seconds(edge.at - triggered_at_));
         trace.value.push_back(edge.value);
     }
-    bool first = true;
-    for (std::int64_t row = std::max<std::int64_t>(0, written_ - rows_); row < written_ && !numbers_.empty(); ++row) {
-        if (sample_time(row) < from || sample_time(row) > to) continue;
-        if (std::exchange(first, false)) capture->first_sample_s = to_seconds(sample_time(row) - triggered_at_);
-        for (std::size_t k = 0; k < numbers_.size(); ++k)
-            capture->traces[numbers_[k].place].value.push_back(sample_of(row, k));
+    for (const NumericChannel& number : numbers_) {
+        std::vector<double>& values = capture->traces[number.place].value;
+        Instant at = number.first;
+        for (auto value = number.samples.begin(); value != number.samples.end() && at <= to; ++value) {
+            values.push_back(*value);
+            at += settings_.period;
+        }
+        if (!values.empty()) capture->first_sample_s = to_seconds(number.first - triggered_at_);
     }
     capture_ = std::move(capture);
     if (settings_.again) {
         const std::optional<double> level = last_value_;
         restart(to);
         last_value_ = level;
-        seen_ = written_;
         return;
     }
     detach();

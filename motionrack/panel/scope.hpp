@@ -1,11 +1,11 @@
 // Scope of the rack: wires with every edge, numbers as periodic samples, from before a trigger until after it.
 //
-//   wires ────► Recorder ──slice──► edges             ─┐
-//   numbers ──► PeriodicSampler, every period ──► samples ─┴─ trigger ──► ScopeCapture, shared, immutable
+//   wires, every edge ─────────┐
+//   numbers, every period ─────┴─► Recorder ──slice──► edges, samples ── trigger ──► ScopeCapture, shared, immutable
 //
 //   idle ──arm──► armed ──trigger──► triggered ──length is full──► done (single), armed again (run)
 //
-// Memory is bounded and allocated when the scope is armed: nothing is allocated within a run of the kernel.
+// Memory is bounded: each slice forgets the data that are too old for a capture.
 #pragma once
 
 #include <deque>
@@ -82,39 +82,32 @@ class Scope {
         const LiveChannel* channel = nullptr;
         std::size_t place = 0;  ///< index in the settings' list
         double slow = 0;        ///< value at the last slice, for a channel that can be read only then
+        Instant first = {};     ///< instant of the oldest sample
+        std::deque<double> samples = {};
+
+        double value() const { return channel->reader == ChannelReader::anytime ? channel->read() : slow; }
     };
 
-    Result<void> listen_to_wires(const std::vector<std::string>& wires);
-    void begin_numbers();
-    void sample(Instant now);
-    void look_for_trigger();
+    Result<void> record(const std::vector<std::string>& wires);
     void look_at(Instant at, double before, double value);
-    void see(Instant at, std::size_t channel, double value);
+    void see_edge(Instant at, std::size_t place, double value);
+    void see_sample(Instant at, NumericChannel& number, double value);
     void forget_old(Instant now);
     void finish();
     void restart(Instant now);
     void detach();
-    Instant sample_time(std::int64_t row) const { return first_sample_ + row * settings_.period; }
-    double sample_of(std::int64_t row, std::size_t column) const {
-        return samples_[static_cast<std::size_t>(row % rows_) * numbers_.size() + column];
-    }
 
     operate::Machine& machine_;
     ChannelRegistry& book_;
     ScopeSettings settings_;
     ScopeState state_ = ScopeState::idle;
     std::unique_ptr<rack::Recorder> recorder_;
-    bool probing_ = false;
     // wires
-    std::vector<std::size_t> places_;  ///< settings index of each recorder signal; npos: not selected
+    std::vector<std::size_t> places_;  ///< settings index of each recorded wire; npos: not selected
     std::vector<double> base_;         ///< levels before the oldest stored edge
     std::deque<ScopeEdge> edges_;
     bool full_ = false;
-    // numbers, in a ring of rows
-    std::vector<NumericChannel> numbers_;
-    std::vector<double> samples_;
-    std::int64_t rows_ = 0, written_ = 0, seen_ = 0;
-    Instant first_sample_{};
+    std::vector<NumericChannel> numbers_;  ///< the last channels of the recorder
     // trigger state
     std::size_t trigger_place_ = 0;
     std::optional<double> last_value_;

@@ -5,6 +5,7 @@
 // A sink runs between the runs of the kernel: it may allocate and write.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -21,7 +22,8 @@ enum class ChannelKind : std::uint8_t {
     number,   ///< a voltage, a word of a bus
     counter,  ///< a position counter of a card, sampled
     steps,    ///< motor pulses: each change is a pulse, +1 or -1
-    counts    ///< an encoder: each change is a count, its value the new count
+    counts,   ///< an encoder: each change is a count, its value the new count
+    quantity  ///< sampled: a change's value is the bits of a double
 };
 
 /// A recorded source of values: a wire, a pulse line, a counter.
@@ -38,8 +40,12 @@ struct Channel {
     std::string scope() const { return dot() == std::string::npos ? "rack" : name.substr(0, dot()); }
     /// "step" of "X.step", "estop" of "estop".
     std::string short_name() const { return dot() == std::string::npos ? name : name.substr(dot() + 1); }
+    /// A change's value is the shown one.
+    bool is_exact() const { return kind != ChannelKind::quantity && scale == 1; }
     /// Whole numbers stay exact.
-    double shown(std::int64_t value) const { return static_cast<double>(value) * scale; }
+    double shown(std::int64_t value) const {
+        return kind == ChannelKind::quantity ? std::bit_cast<double>(value) : static_cast<double>(value) * scale;
+    }
 
   private:
     std::size_t dot() const { return name.find('.'); }

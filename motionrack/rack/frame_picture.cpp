@@ -66,7 +66,7 @@ Result<std::string> frame_picture(const RackConfig& config, int frame) {
     if (bus == nullptr || bus->cards().empty())
         return fail(ErrorKind::refused,
                     "The rack has no card of type grating_bus, so it has no frames to draw. Nothing was written.");
-    WireTap tap(rack.kernel());
+    RecorderTap tap(rack.kernel());
     rack.start();
     const gb::CardSettings& settings = bus->cards().front()->settings();
     const Duration length = settings.timing.frame_time(settings.scales);

@@ -111,19 +111,31 @@ class Recorder::EventListener final : public sim::EdgeListener {
 
 // ---- selection
 
-WireTap::WireTap(sim::Kernel& kernel)
+RecorderTap::RecorderTap(sim::Kernel& kernel)
     : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "tap")), followers_(kernel.wire_count()) {
     for (std::size_t i = 0; i < kernel.wire_count(); ++i)
         if (kernel.lazy(static_cast<sim::WireId>(i))) kernel.listen(static_cast<sim::WireId>(i), id_, 0);
 }
 
-void WireTap::follow(sim::WireId wire, bool wanted) {
+void RecorderTap::follow(sim::WireId wire, bool wanted) {
     followers_[sim::Kernel::index(wire)] += wanted ? 1 : -1;
     kernel_.subscribe(wire, id_, followers_[sim::Kernel::index(wire)] > 0);
 }
 
+sim::DeviceId RecorderTap::lend(sim::Device* sampler) {
+    sampler_ = sampler;
+    kernel_.schedule(id_, never);
+    return id_;
+}
+
 Recorder::Recorder(Rack& rack, const RecorderSettings& settings)
-    : rack_(rack), patterns_(settings.signals), tap_(settings.tap), period_(settings.period), events_(settings.events) {
+    : rack_(rack),
+      patterns_(settings.signals),
+      tap_(settings.tap),
+      period_(settings.period),
+      events_(settings.events),
+      breaks_(settings.breaks),
+      wants_all_(settings.signals.empty() && settings.sampled.empty()) {
     buffer_.reserve(buffer_size);
     lag_ = recorded_within;
 }
@@ -137,6 +149,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(Rack& rack, const RecorderSet
     out->choose_axes();
     out->choose_wires();
     out->choose_counters();
+    for (const SampledChannel& one : settings.sampled) out->add_sampled(one);
     if (out->declared_.channels.empty())
         return fail(ErrorKind::invalid_input,
                     fmt::format("No signal fits '{}'; nothing was recorded. Signals are called like X.step, X.enc_a or "
@@ -155,7 +168,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(Rack& rack, const RecorderSet
 }
 
 bool Recorder::wanted(const std::string& name) const {
-    return patterns_.empty() ||
+    return wants_all_ ||
            std::any_of(patterns_.begin(), patterns_.end(), [&](const std::string& p) { return matches(p, name); });
 }
 
@@ -170,6 +183,11 @@ const std::string* Recorder::wanted_name(sim::WireId wire) const {
 std::size_t Recorder::add(Channel channel) {
     declared_.channels.push_back(std::move(channel));
     return declared_.channels.size() - 1;
+}
+
+void Recorder::add_sampled(SampledChannel one) {
+    one.channel.initial = one.read();
+    sampled_.emplace_back(add(std::move(one.channel)), std::move(one.read));
 }
 
 /// Lines of a bus shared by cards have edges as close as its timing allows, those of a scale as close as its count
@@ -259,17 +277,18 @@ void Recorder::choose_counters() {
         for (const CardCounter& each : card->counters()) {
             const std::string name = card->name() + "." + each.name;
             if (!wanted(name)) continue;
-            counters_.push_back(
-                {card.get(), each,
-                 add({name, ChannelKind::counter, each.encoder ? "count" : "step", 1, card->counter(each)})});
+            const Channel channel{name, ChannelKind::counter, each.encoder ? "count" : "step"};
+            add_sampled({channel, [of = card.get(), each] { return of->counter(each); }});
         }
 }
 
 // ---- recording
 
-void Recorder::begin() {
-    MOTIONRACK_ASSERT(is_device_);
-    rack_.kernel().schedule(id_, rack_.kernel().now());
+void Recorder::begin(Duration after) {
+    MOTIONRACK_ASSERT(is_device_ || tap_ != nullptr);
+    if (!is_device_) id_ = tap_->lend(this);
+    borrows_device_ = !is_device_;
+    rack_.kernel().schedule(id_, later(rack_.kernel().now(), after));
 }
 
 void Recorder::push(Instant at, std::size_t channel, std::int64_t value, std::uint32_t place) {
@@ -287,19 +306,26 @@ void Recorder::wire_changed(sim::WireId wire, int level, Instant now) {
 }
 
 void Recorder::on_scheduled(Instant now) {
-    sample(now);
-    rack_.kernel().schedule(id_, now + period_);
+    if (breaks_) {
+        due_ = true;
+        rack_.kernel().break_run();
+    } else {
+        sample(now);
+    }
+    rack_.kernel().schedule(id_, later(now, period_));
 }
 
 void Recorder::sample(Instant now) {
-    for (const SampledCounter& one : counters_) push(now, one.channel, one.card->counter(one.counter));
+    for (const auto& [channel, read] : sampled_) push(now, channel, read());
 }
 
 /// Orders the changes before `end` by time; returns their end.
 std::vector<Recorder::BufferedChange>::iterator Recorder::order_before(Instant end) {
-    std::stable_sort(buffer_.begin(), buffer_.end(), [](const BufferedChange& a, const BufferedChange& b) {
+    const auto is_before = [](const BufferedChange& a, const BufferedChange& b) {
         return a.at != b.at ? a.at < b.at : a.place < b.place;
-    });
+    };
+    if (!std::is_sorted(buffer_.begin(), buffer_.end(), is_before))
+        std::stable_sort(buffer_.begin(), buffer_.end(), is_before);
     return std::partition_point(buffer_.begin(), buffer_.end(),
                                 [end](const BufferedChange& one) { return one.at < end; });
 }
@@ -322,7 +348,7 @@ void Recorder::listen() {
     for (const auto& [fork, listener] : heard_) fork->add(*listener);
     recording_ = true;
     for (const sim::WireId wire : followed_) tap_->follow(wire, true);
-    rack_.wire_listeners().add(*this);
+    if (wires_begin_ != wires_end_) rack_.wire_listeners().add(*this);
 }
 
 void Recorder::stop_listening() {
@@ -332,6 +358,7 @@ void Recorder::stop_listening() {
     recording_ = false;
     rack_.wire_listeners().remove(*this);
     if (is_device_) rack_.kernel().schedule(id_, never);
+    if (borrows_device_) tap_->lend(nullptr);
     for (const sim::WireId wire : followed_) tap_->follow(wire, false);
 }
 

@@ -7,55 +7,76 @@
 //
 // A pulse of X.step lasts half the interval to the next one, at most 5 us. X.dir changes 250 ns before the first pulse
 // in the new direction. Pins that the card drives on demand (its pulse outputs) are recorded directly if a pattern
-// names them and a WireTap exists.
+// names them and a RecorderTap exists.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <motionrack/rack/change_sink.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace motionrack::rack {
 
-/// Drives on-demand pins: subscribes to the wires that have followers.
-class WireTap final : public sim::Device {
+/// The recorders' device in a rack: drives the on-demand pins that they follow, and lets one of them sample.
+class RecorderTap final : public sim::Device {
   public:
     /// Call before the rack starts and after everything else is built.
-    explicit WireTap(sim::Kernel& kernel);
+    explicit RecorderTap(sim::Kernel& kernel);
     /// Adds or removes a follower; a wire stays subscribed while it has followers.
     void follow(sim::WireId wire, bool wanted);
-    void on_scheduled(Instant) override {}
+    /// Lets `sampler` act at the instants that are scheduled for the returned device; nullptr: none acts. Nothing is
+    /// scheduled at first.
+    sim::DeviceId lend(sim::Device* sampler);
+    void on_scheduled(Instant now) override {
+        if (sampler_ != nullptr) sampler_->on_scheduled(now);
+    }
 
   private:
     sim::Kernel& kernel_;
     sim::DeviceId id_;
     std::vector<int> followers_;  ///< follower count of each kernel wire
+    sim::Device* sampler_ = nullptr;
+};
+
+/// A channel that a function reads.
+struct SampledChannel {
+    Channel channel;
+    std::function<std::int64_t()> read;
 };
 
 struct RecorderSettings {
     std::vector<std::string> signals;   ///< patterns with * and ?, over full names ("X.step", "motion.xlmtp"); empty:
-                                        ///< all except pins driven on demand
-    Duration period = milliseconds(1);  ///< sampling period of LP and EP
-    WireTap* tap = nullptr;             ///< source of pins driven on demand
+                                        ///< all except pins driven on demand, or none beside `sampled`
+    Duration period = milliseconds(1);  ///< sampling period of counters and `sampled`
+    RecorderTap* tap = nullptr;         ///< source of pins driven on demand
     SinkMaker sink = {};                ///< must not be empty
     /// Pulses and counts are handed over as they are (X.steps, X.encoder), in order of time within each channel; else
     /// as levels of lines (X.step, X.dir, X.enc_a, X.enc_b), in order of time over all channels.
     bool events = false;
+    std::vector<SampledChannel> sampled = {};  ///< further channels; within a run, reading them must neither allocate
+                                               ///< nor change anything
+    bool breaks = false;                       ///< a sample ends the run of the kernel, and poll_due() takes it
 };
 
 class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
   public:
-    /// Before the rack starts: creates a device that samples the registers by itself after begin(). In a running rack:
-    /// its owner calls poll(). Errors: those of the sink; invalid_input if no signal matches the patterns. On error the
-    /// rack is unchanged.
+    /// Before the rack starts: creates a device that samples by itself after begin(). In a running rack, the settings'
+    /// tap does so after begin(), for one recorder at a time; without begin(), the owner calls poll(). Errors: those of
+    /// the sink; invalid_input if no signal matches the patterns. On error the rack is unchanged.
     static Result<std::unique_ptr<Recorder>> create(Rack& rack, const RecorderSettings& settings);
     ~Recorder() override;
 
-    /// Call after the rack has started, if the recorder was created before that.
-    void begin();
-    /// Samples the registers. Call between runs.
+    /// Samples each period from `after` this instant on. Call after the rack has started.
+    void begin(Duration after = {});
+    /// Takes a sample. Call between runs.
     void poll() { sample(rack_.kernel().now()); }
+    /// Takes the sample that ended the run, if any. Call between runs.
+    void poll_due() {
+        if (std::exchange(due_, false)) poll();
+    }
     /// Hands the buffered changes to the sink. Call between runs.
     void drain() { hand_over(never); }
     /// Hands over the buffered changes except those of the last microseconds, which may be incomplete. The recording
@@ -92,18 +113,13 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     class LineListener;
     /// Listens to the pulses or the encoder of one axis, whose edges stay events.
     class EventListener;
-    /// LP or EP of a card's channel.
-    struct SampledCounter {
-        Card* card = nullptr;
-        CardCounter counter;
-        std::size_t channel = 0;
-    };
 
     Recorder(Rack& rack, const RecorderSettings& settings);
     bool wanted(const std::string& name) const;
     /// Returns the first of the wire's names that a pattern selects, or nullptr.
     const std::string* wanted_name(sim::WireId wire) const;
     std::size_t add(Channel channel);
+    void add_sampled(SampledChannel one);
     Duration edge_unit() const;
     void choose_axes();
     void choose_pulses(RunningAxis& axis);
@@ -122,12 +138,14 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
 
     Rack& rack_;
     std::vector<std::string> patterns_;
-    WireTap* tap_;
+    RecorderTap* tap_;
     Duration period_;
-    bool events_;
+    bool events_, breaks_;
+    bool wants_all_;   ///< no pattern limits the selection
     Duration lag_{0};  // maximum delay of an edge
     sim::DeviceId id_{};
-    bool is_device_ = false;
+    bool is_device_ = false, borrows_device_ = false;
+    bool due_ = false;
     bool recording_ = false;
     bool failed_ = false;
     Declaration declared_;
@@ -138,7 +156,7 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     std::vector<std::unique_ptr<sim::EdgeListener>> others_;
     std::vector<std::pair<EdgeFanout*, sim::EdgeListener*>> heard_;  ///< listeners and the fanouts they belong to
     std::vector<sim::WireId> followed_;
-    std::vector<SampledCounter> counters_;
+    std::vector<std::pair<std::size_t, std::function<std::int64_t()>>> sampled_;  ///< channels and their readings
     std::vector<BufferedChange> buffer_;
     std::uint64_t lost_ = 0;
     Instant last_{};

@@ -15,7 +15,7 @@
 namespace motionrack::rack {
 
 Session::Session(const RackConfig& config, Programs programs)
-    : rack_(config), job_(make_job(programs)), tap_(std::make_unique<WireTap>(rack_.kernel())), context_(rack_) {
+    : rack_(config), job_(make_job(programs)), tap_(std::make_unique<RecorderTap>(rack_.kernel())), context_(rack_) {
     rack_.input_log().keep_no_more();
     rack_.start();
 }

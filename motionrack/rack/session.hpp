@@ -160,7 +160,7 @@ class Session {
     std::uint64_t reported_ = 0;  // conditions reported
     bool telling_ = false;        // the call-back is running
     bool driving_ = false;        // a program or homing is running
-    std::unique_ptr<WireTap> tap_;
+    std::unique_ptr<RecorderTap> tap_;
     WireAccess context_;
     std::unique_ptr<Recorder> recorder_;
     Duration trace_unit_{0};

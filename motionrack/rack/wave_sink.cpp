@@ -52,7 +52,7 @@ class CsvSink final : public ChangeSink {
   public:
     CsvSink(trace::CsvWriter writer, const Declaration& declared) : writer_(std::move(writer)) {
         for (const Channel& channel : declared.channels) {
-            columns_.push_back({channel.scope() + '.' + channel.short_name(), channel.scale, channel.initial});
+            columns_.push_back({channel.scope() + '.' + channel.short_name(), channel, channel.initial});
             write(columns_.back(), declared.start);
         }
     }
@@ -68,7 +68,7 @@ class CsvSink final : public ChangeSink {
   private:
     struct Column {
         std::string name;
-        double scale = 1;
+        Channel channel;
         std::int64_t value = 0;
     };
 
@@ -76,10 +76,10 @@ class CsvSink final : public ChangeSink {
         // Whole ticks of 100 ps are exact, a double of seconds is not.
         writer_.add(fmt::format("{}.{:010}", at.count() / 10'000'000'000, at.count() % 10'000'000'000));
         writer_.add(column.name);
-        if (column.scale == 1)
+        if (column.channel.is_exact())
             writer_.add(column.value);
         else
-            writer_.add(fmt::format("{}", static_cast<double>(column.value) * column.scale));
+            writer_.add(fmt::format("{}", column.channel.shown(column.value)));
         writer_.end_line();
     }
 

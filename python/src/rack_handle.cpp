@@ -68,7 +68,7 @@ void RackHandle::start() {
     plan_ = value_of(rack::FaultSchedule::create(*rack_, fault_texts_));
     if (!rack_->axes().empty()) job_ = std::make_unique<rack::Job>(*rack_, job_settings());
     bell_ = std::make_unique<RunBreaker>(rack_->kernel());
-    tap_ = std::make_unique<rack::WireTap>(rack_->kernel());
+    tap_ = std::make_unique<rack::RecorderTap>(rack_->kernel());
     rack_->input_log().keep_no_more();
     rack_->start();
     bell_->begin();

@@ -2,7 +2,7 @@
 // slices.
 //
 //   Python ──► RackHandle ──┬─► Rack, Job (a part program), FaultSchedule
-//                      ├─► WireAccess, WireTap, Recorder
+//                      ├─► WireAccess, RecorderTap, Recorder
 //                      └─► RunBreaker ──break_run──► service_run(): faults that are due, samples, recordings, Ctrl-C
 #pragma once
 
@@ -130,7 +130,7 @@ class RackHandle final : public Host {
     std::unique_ptr<rack::FaultSchedule> plan_;
     std::unique_ptr<rack::Job> job_;
     std::unique_ptr<RunBreaker> bell_;
-    std::unique_ptr<rack::WireTap> tap_;
+    std::unique_ptr<rack::RecorderTap> tap_;
     std::unique_ptr<rack::Recorder> recorder_;
     Instant next_register_look_ = never;
     std::optional<Sampler> sampler_;

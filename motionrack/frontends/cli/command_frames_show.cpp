@@ -176,10 +176,10 @@ int show_frames(const ShowOptions& options) {
         if (code = read_program(options.program, *config, program, inputs); code != exit_done) return code;
     if (!may_write(inputs, {options.vcd, options.picture})) return exit_refused;
     rack::FrameMonitor watch(rack);
-    std::unique_ptr<rack::WireTap> tap;
+    std::unique_ptr<rack::RecorderTap> tap;
     std::unique_ptr<rack::Recorder> recorder;
     if (!options.vcd.empty()) {
-        tap = std::make_unique<rack::WireTap>(rack.kernel());
+        tap = std::make_unique<rack::RecorderTap>(rack.kernel());
         rack::RecorderSettings settings;
         settings.sink = rack::wave_sink({options.vcd});
         settings.signals = {"bus.*", "*.state", "*.frame_done"};

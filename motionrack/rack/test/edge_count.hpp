@@ -94,7 +94,7 @@ class Counted {
     std::int64_t value(const char* of, const std::string& name) { return *rack.card(of)->inspect(name); }
 
     Rack rack;
-    WireTap tap;
+    RecorderTap tap;
     EdgesSeen seen;
     std::unique_ptr<Recorder> recorder;
 };

@@ -1,0 +1,94 @@
+// Channels that a recorder samples by functions.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <memory>
+#include <motionrack/rack/recorder.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace motionrack::rack {
+namespace {
+
+struct KeptChange {
+    std::string channel;
+    double value = 0;
+    Instant at{};
+    friend bool operator==(const KeptChange&, const KeptChange&) = default;
+};
+
+class KeptChanges final : public ChangeSink {
+  public:
+    KeptChanges(std::vector<KeptChange>& kept, std::vector<Channel> channels)
+        : kept_(kept), channels_(std::move(channels)) {}
+    void change(std::size_t index, std::int64_t value, Instant at) override {
+        kept_.push_back({channels_[index].name, channels_[index].shown(value), at});
+    }
+
+  private:
+    std::vector<KeptChange>& kept_;
+    std::vector<Channel> channels_;
+};
+
+/// A running rack whose time is sampled each 2 ms, from 1 ms on.
+struct SampledTime {
+    explicit SampledTime(bool breaks) : rack(*read_rack_text("card.c1 = \"mcx314\"").config), tap(rack.kernel()) {
+        rack.start();
+        RecorderSettings settings;
+        settings.period = milliseconds(2);
+        settings.tap = &tap;
+        settings.breaks = breaks;
+        settings.sampled = {
+            {{"seconds", ChannelKind::quantity},
+             [this] { return std::bit_cast<std::int64_t>(to_seconds(rack.kernel().now())); }},
+            {{"milliseconds", ChannelKind::number}, [this] { return rack.kernel().now() / milliseconds(1); }}};
+        settings.sink = [this](const Declaration& declared) {
+            return std::make_shared<KeptChanges>(kept, declared.channels);
+        };
+        recorder = std::move(*Recorder::create(rack, settings));
+        recorder->begin(milliseconds(1));
+    }
+
+    Rack rack;
+    RecorderTap tap;
+    std::vector<KeptChange> kept;
+    std::unique_ptr<Recorder> recorder;
+};
+
+TEST(Recorder, SamplesEachPeriodWithinARun) {
+    SampledTime bench(false);
+    EXPECT_EQ(bench.rack.kernel().run_until(milliseconds(4)), sim::RunEnd::reached);
+    EXPECT_TRUE(bench.kept.empty()) << "a sink runs between runs";
+    bench.recorder->drain();
+    const std::vector<KeptChange> samples = {{"seconds", to_seconds(milliseconds(1)), milliseconds(1)},
+                                             {"milliseconds", 1, milliseconds(1)},
+                                             {"seconds", to_seconds(milliseconds(3)), milliseconds(3)},
+                                             {"milliseconds", 3, milliseconds(3)}};
+    EXPECT_EQ(bench.kept, samples);
+}
+
+TEST(Recorder, EndsARunForEachSampleThatIsTakenBetweenRuns) {
+    SampledTime bench(true);
+    sim::Kernel& kernel = bench.rack.kernel();
+    EXPECT_EQ(kernel.run_until(milliseconds(4)), sim::RunEnd::broken);
+    EXPECT_EQ(kernel.now(), milliseconds(1));
+    bench.recorder->poll_due();
+    bench.recorder->poll_due();  // nothing is due
+    bench.recorder->drain();
+    const std::vector<KeptChange> sample = {{"seconds", to_seconds(milliseconds(1)), milliseconds(1)},
+                                            {"milliseconds", 1, milliseconds(1)}};
+    EXPECT_EQ(bench.kept, sample);
+    EXPECT_TRUE(bench.recorder->finish());
+    EXPECT_EQ(kernel.run_until(milliseconds(4)), sim::RunEnd::reached) << "a finished recorder ends no run";
+}
+
+TEST(Recorder, LeavesItsTapToTheNextOne) {
+    SampledTime bench(false);
+    bench.recorder.reset();
+    EXPECT_EQ(bench.rack.kernel().run_until(milliseconds(4)), sim::RunEnd::reached);
+    EXPECT_TRUE(bench.kept.empty());
+}
+
+}  // namespace
+}  // namespace motionrack::rack
