@@ -43,12 +43,12 @@ py::array_t<T> array_of(const std::vector<T>& values) {
     return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-py::tuple samples_of(const Sampler& sampler) {
+py::tuple samples_of(const SampleTable& table) {
     py::dict signals;
-    for (const Channel& channel : sampler.channels())
-        signals[py::str(channel.name)] =
-            channel.whole ? py::object(array_of(channel.counts)) : py::object(array_of(channel.values));
-    return py::make_tuple(array_of(sampler.ticks()), signals);
+    for (const SampleTable::Column& column : table.columns())
+        signals[py::str(column.channel.name)] =
+            column.is_whole() ? py::object(array_of(column.counts)) : py::object(array_of(column.values));
+    return py::make_tuple(array_of(table.ticks()), signals);
 }
 
 /// Returns the quantities of the whole rack: {part: {name: meaning}}.
@@ -209,7 +209,7 @@ void bind_moving(py::class_<RackHandle, Shared>& world) {
         .def("end_samples",
              [](RackHandle& w) {
                  const RackLock turn(w, RackLock::Access::run);
-                 return samples_of(value_of(w.end_samples()));
+                 return samples_of(*value_of(w.end_samples()));
              })
         .def(
             "begin_waves",

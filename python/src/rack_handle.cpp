@@ -12,6 +12,37 @@ namespace motionrack::python {
 namespace {
 constexpr Duration slice = milliseconds(50);
 constexpr std::size_t max_problems = 20;
+
+/// Ends a run when a wire takes a level.
+class WireWait final : public sim::Kernel::WireObserver {
+  public:
+    WireWait(rack::Rack& rack, rack::RecorderTap& tap, sim::WireId wire, int level)
+        : rack_(rack), tap_(tap), wire_(wire), level_(level), over_(rack.kernel().level(wire) == level) {
+        rack_.wire_listeners().add(*this);
+        tap_.follow(wire_, true);
+    }
+    ~WireWait() override {
+        tap_.follow(wire_, false);
+        rack_.wire_listeners().remove(*this);
+    }
+    WireWait(const WireWait&) = delete;
+    WireWait& operator=(const WireWait&) = delete;
+
+    bool is_over() const { return over_; }
+    void wire_changed(sim::WireId wire, int level, Instant) override {
+        if (wire != wire_ || level != level_) return;
+        over_ = true;
+        rack_.kernel().break_run();
+    }
+
+  private:
+    rack::Rack& rack_;
+    rack::RecorderTap& tap_;
+    sim::WireId wire_;
+    int level_;
+    bool over_;
+};
+
 }  // namespace
 
 RackHandle::RackHandle(const rack::RackConfig& config) : config_(config) {
@@ -36,7 +67,6 @@ void RackHandle::close() {
     context_.reset();
     rack_.reset();
     tap_.reset();
-    bell_.reset();
     job_.reset();
     plan_.reset();
 }
@@ -67,11 +97,9 @@ rack::JobSettings RackHandle::job_settings() {
 void RackHandle::start() {
     plan_ = value_of(rack::FaultSchedule::create(*rack_, fault_texts_));
     if (!rack_->axes().empty()) job_ = std::make_unique<rack::Job>(*rack_, job_settings());
-    bell_ = std::make_unique<RunBreaker>(rack_->kernel());
     tap_ = std::make_unique<rack::RecorderTap>(rack_->kernel());
     rack_->input_log().keep_no_more();
     rack_->start();
-    bell_->begin();
     plan_->begin();
     listen_again();
 }
@@ -85,7 +113,10 @@ void RackHandle::listen_again() {
 
 void RackHandle::service_run() {
     plan_->apply_due();
-    if (sampler_ && bell_->take_break() != never) sampler_->take(now());
+    if (sampler_) {
+        sampler_->poll_due();
+        sampler_->drain();
+    }
     if (recorder_) {
         if (now() >= next_register_look_) {
             recorder_->poll();
@@ -135,14 +166,10 @@ Result<bool> RackHandle::wait_wire(const std::string& name, int level, Duration 
         return fail(ErrorKind::refused,
                     fmt::format("The time-out is {:.9g} s; it must be 0 to {:.0f} s. Nothing was run.",
                                 to_seconds(timeout), to_seconds(latest - now())));
-    struct Listening {
-        RunBreaker& bell;
-        ~Listening() { bell.listen_no_more(); }
-    } listening{*bell_};
-    bell_->break_on_wire(wire, level);
-    if (bell_->heard()) return true;
-    MOTIONRACK_CHECK(run_to(now() + timeout, [this] { return bell_->heard(); }));
-    return bell_->heard();
+    const WireWait wait(*rack_, *tap_, wire, level);
+    if (wait.is_over()) return true;
+    MOTIONRACK_CHECK(run_to(now() + timeout, [&wait] { return wait.is_over(); }));
+    return wait.is_over();
 }
 
 Result<void> RackHandle::set_wire(const std::string& name, double value) {

@@ -3,7 +3,7 @@
 //
 //   Python ──► RackHandle ──┬─► Rack, Job (a part program), FaultSchedule
 //                      ├─► WireAccess, RecorderTap, Recorder
-//                      └─► RunBreaker ──break_run──► service_run(): faults that are due, samples, recordings, Ctrl-C
+//                      └─► service_run(), between runs: faults that are due, samples, recordings, Ctrl-C
 #pragma once
 
 #include <functional>
@@ -12,10 +12,8 @@
 #include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/recorder.hpp>
-#include <optional>
 #include <python/src/host.hpp>
-#include <python/src/run_breaker.hpp>
-#include <python/src/sampler.hpp>
+#include <python/src/sample_table.hpp>
 #include <string>
 #include <vector>
 
@@ -90,7 +88,7 @@ class RackHandle final : public Host {
 
     // ---- samples and waves
     Result<void> begin_samples(const std::vector<std::string>& names, Duration period, std::size_t max_samples);
-    Result<Sampler> end_samples();
+    Result<std::shared_ptr<const SampleTable>> end_samples();
     Result<void> begin_waves(const std::string& path, const std::vector<std::string>& signals);
     Result<void> end_waves();
 
@@ -129,11 +127,11 @@ class RackHandle final : public Host {
     std::unique_ptr<rack::WireAccess> context_;
     std::unique_ptr<rack::FaultSchedule> plan_;
     std::unique_ptr<rack::Job> job_;
-    std::unique_ptr<RunBreaker> bell_;
     std::unique_ptr<rack::RecorderTap> tap_;
     std::unique_ptr<rack::Recorder> recorder_;
     Instant next_register_look_ = never;
-    std::optional<Sampler> sampler_;
+    std::unique_ptr<rack::Recorder> sampler_;
+    std::shared_ptr<const SampleTable> samples_;
 };
 
 }  // namespace motionrack::python

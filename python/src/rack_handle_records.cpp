@@ -21,21 +21,29 @@ Result<void> RackHandle::begin_samples(const std::vector<std::string>& names, Du
         return fail(ErrorKind::refused,
                     fmt::format("At most {} samples are to be kept; it must be 2 to 100000000. Nothing was started.",
                                 max_samples));
-    MOTIONRACK_TRY(Sampler sampler, Sampler::create(*rack_, *context_, names, max_samples));
-    sampler_ = std::move(sampler);
-    bell_->break_every(period);
-    if (bell_->take_break() != never) sampler_->take(now());
+    rack::RecorderSettings settings;
+    MOTIONRACK_TRY(settings.sampled, sampled_channels(*rack_, *context_, names));
+    settings.period = period;
+    settings.breaks = true;
+    settings.tap = tap_.get();
+    settings.sink = [this, max_samples](const rack::Declaration& declared) {
+        auto table = std::make_shared<SampleTable>(declared, max_samples);
+        samples_ = table;
+        return table;
+    };
+    MOTIONRACK_TRY(sampler_, rack::Recorder::create(*rack_, settings));
+    sampler_->begin(period);
+    sampler_->poll();
+    sampler_->drain();
     return {};
 }
 
-Result<Sampler> RackHandle::end_samples() {
+Result<std::shared_ptr<const SampleTable>> RackHandle::end_samples() {
     rack();
     if (!sampler_) return fail(ErrorKind::refused, "No recording runs; nothing was done.");
-    sampler_->take(now());
-    bell_->ring_no_more();
-    Sampler out = std::move(*sampler_);
-    sampler_.reset();
-    return out;
+    const std::unique_ptr<rack::Recorder> ended = std::move(sampler_);
+    MOTIONRACK_CHECK(ended->finish());
+    return std::move(samples_);
 }
 
 Result<void> RackHandle::begin_waves(const std::string& path, const std::vector<std::string>& signals) {
@@ -90,7 +98,7 @@ void RackHandle::copy_from(RackHandle& other) {
     rack_->copy_from(*other.rack_);
     context_->copy_from(*other.context_);
     plan_->copy_from(*other.plan_);
-    bell_->ring_no_more();
+    tap_->lend(nullptr);
     listen_again();
     if (job_) job_->copy_from(*other.job_);
 }
