@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -34,7 +35,7 @@ Result<void> check_folder(const std::string& path, const std::string& subject) {
     const std::filesystem::path parent = std::filesystem::path(path).parent_path();
     const std::string folder = parent.empty() ? "." : parent.string();
     struct stat about {};
-    if (::stat(folder.c_str(), &about) != 0) return errno == ENOENT ? Result<void>() : not_seen(path, subject);
+    if (::stat(folder.c_str(), &about) != 0) return {};  // it is missing: any other error is also one of the file
     if (is_of_another_user(about))
         return fail(
             ErrorKind::invalid_input,
@@ -50,8 +51,9 @@ Result<void> check_folder(const std::string& path, const std::string& subject) {
                 {}, path);
 }
 
+/// Returns "the users file".
 std::string lower_first(std::string text) {
-    if (text.compare(0, 4, "The ") == 0) text[0] = 't';
+    text.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(text.front())));
     return text;
 }
 

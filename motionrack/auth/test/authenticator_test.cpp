@@ -157,8 +157,11 @@ TEST_F(AuthenticatorTest, RefusesAFileThatIsDamagedOrThatOthersMayWrite) {
     write(user(name + "," + role + "," + token + "," + expires));
     EXPECT_TRUE(try_open());
     for (const std::string& wrong : std::vector<std::string>{
-             "{", "[]", "{\"users\":1}", "{\"users\":[1]}", user(""),
+             "{", "[]", "{}", "{\"users\":1}", "{\"users\":[1]}", user(""),
              user(name + ",\"role\":\"none\"," + token + "," + expires),
+             user(name + ",\"role\":\"owner\"," + token + "," + expires),
+             user(name + "," + role + ",\"token_sha256\":\"" + std::string(64, 'A') + "\"," + expires),
+             user(name + "," + role + "," + token + ",\"expires\":1.5"),
              user("\"name\":1," + role + "," + token + "," + expires),
              user(name + "," + role + ",\"token_sha256\":\"aa\"," + expires), user(name + "," + role + "," + token),
              user(name + "," + role + "," + token + ",\"expires\":-1"),
@@ -179,6 +182,23 @@ TEST_F(AuthenticatorTest, RefusesAFileThatIsDamagedOrThatOthersMayWrite) {
     EXPECT_THAT(try_open().error().message, HasSubstr("Others may replace the users file: its folder"));
     ::chmod(folder.c_str(), 01777);
     EXPECT_TRUE(try_open()) << "sticky, as /tmp";
+}
+
+TEST_F(AuthenticatorTest, RefusesAFolderInPlaceOfItsFile) {
+    fs::create_directory(file());
+    const auto opened = try_open();
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().message, "The users path is not a regular file.");
+    EXPECT_EQ(opened.error().file, file().string());
+}
+
+TEST_F(AuthenticatorTest, WithoutAFileKeepsItsUsersInMemory) {
+    const auto memory = *Authenticator::open({});
+    const auto bert = memory->pair(*memory->invite(Role::operate, now), "bert", "127.0.0.1", now);
+    ASSERT_TRUE(bert) << bert.error().sentence;
+    EXPECT_TRUE(memory->authenticate(bert->token, now.wall));
+    EXPECT_TRUE((*Authenticator::open({}))->users().empty());
+    EXPECT_FALSE(fs::exists(file()));
 }
 
 TEST_F(AuthenticatorTest, ChecksTheFolderBeforeTheFirstUserIsWritten) {
@@ -218,6 +238,16 @@ TEST_F(AuthenticatorTest, PairsNoUserIfTheFileCannotBeWritten) {
     EXPECT_TRUE(door->users().empty());
     fs::create_directories(folder);
     EXPECT_TRUE(pair(start_codes[0], "anna")) << "the code was not used up";
+}
+
+TEST_F(AuthenticatorTest, KeepsAnInvitationThatPairedNoUser) {
+    const std::string code = *door->invite(Role::observe, now);
+    fs::remove_all(folder);
+    ASSERT_FALSE(pair(code, "bert"));
+    fs::create_directories(folder);
+    const auto bert = pair(code, "bert");
+    ASSERT_TRUE(bert) << bert.error().sentence;
+    EXPECT_EQ(bert->identity.role, Role::observe);
 }
 
 TEST_F(AuthenticatorTest, RevokesNoUserIfTheFileCannotBeWritten) {

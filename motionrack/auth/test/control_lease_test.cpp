@@ -41,7 +41,11 @@ TEST_F(ControlLeaseTest, IsTakenOverByForceAtStandstillOnly) {
 }
 
 TEST_F(ControlLeaseTest, OfADisconnectedClientIsTakenOverByForceWhileTheMachineMoves) {
+    lease.left("a");
+    EXPECT_FALSE(lease.holder()) << "who had no control loses none";
     ASSERT_TRUE(take("anna", "a"));
+    lease.left("b");
+    EXPECT_FALSE(lease.holder()->left);
     lease.left("a");
     EXPECT_TRUE(lease.holder()->left);
     EXPECT_THAT(take("bert", "b", false, false).error().message, HasSubstr("anna has it"));

@@ -25,8 +25,9 @@ class PrivateFiles : public testing::Test {
         ::chmod(file_.c_str(), 0600);
     }
     ~PrivateFiles() override { std::filesystem::remove_all(folder_); }
-    std::string refused() const {
-        const Result<void> checked = check_writers(file_, "The users file");
+    std::string refused() const { return refused(file_); }
+    static std::string refused(const std::string& path) {
+        const Result<void> checked = check_writers(path, "The users file");
         return checked ? std::string() : checked.error().message;
     }
     const std::filesystem::path folder_;
@@ -46,6 +47,41 @@ TEST_F(PrivateFiles, OfAnotherUserAreRefused) {
     ASSERT_EQ(::chown(file_.c_str(), 0, 0), 0);
     ASSERT_EQ(::chown(folder_.c_str(), another_user, another_user), 0);
     EXPECT_THAT(refused(), HasSubstr("Another user (uid 65534) may replace the users file"));
+}
+
+TEST_F(PrivateFiles, OfRootAreAcceptedByEveryUser) {
+    const bool is_root = ::geteuid() == 0;
+    if (is_root) {
+        ASSERT_EQ(::seteuid(another_user), 0);
+    }
+    const std::string said = refused("/etc/passwd");
+    if (is_root) {
+        ASSERT_EQ(::seteuid(0), 0);
+    }
+    EXPECT_EQ(said, "");
+}
+
+TEST_F(PrivateFiles, AreCheckedInTheWorkingFolderToo) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder_);
+    EXPECT_EQ(refused("users.json"), "");
+    ::chmod(folder_.c_str(), 0777);
+    const std::string said = refused("users.json");
+    std::filesystem::current_path(before);
+    EXPECT_THAT(said, HasSubstr("Others may replace the users file: its folder . is open to them (mode 777)"));
+}
+
+TEST_F(PrivateFiles, ThatAreMissingAreAcceptedAsFarAsTheirFolderIs) {
+    EXPECT_EQ(refused((folder_ / "nothing.json").string()), "");
+    EXPECT_EQ(refused((folder_ / "nowhere" / "nothing.json").string()), "") << "its folder is created later";
+    EXPECT_THAT(refused(file_ + "/nothing.json"), HasSubstr("The users file cannot be checked: Not a directory"));
+}
+
+TEST_F(PrivateFiles, OfSecretsMustExist) {
+    const Result<void> checked = check_readers((folder_ / "nothing.key").string(), "The key");
+    ASSERT_FALSE(checked);
+    EXPECT_EQ(checked.error().kind, ErrorKind::io);
+    EXPECT_THAT(checked.error().message, HasSubstr("The key cannot be checked: No such file or directory"));
 }
 
 }  // namespace
