@@ -18,7 +18,8 @@ class Statement {
     Statement& bind(int place, std::string_view text);
     /// Returns true if a row was read; false at the end or on an error, see ok().
     bool row();
-    bool ok() const { return code_ == SQLITE_OK || code_ == SQLITE_DONE || code_ == SQLITE_ROW; }
+    /// Returns true if row() has reached the end.
+    bool ok() const { return code_ == SQLITE_DONE; }
     std::int64_t number(int column) const { return sqlite3_column_int64(statement_.get(), column); }
     std::string text(int column) const;
     void again();

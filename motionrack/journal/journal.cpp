@@ -35,7 +35,8 @@ Result<void> make_private(const std::string& path) {
         return fail(ErrorKind::io, fmt::format("The journal '{}' cannot be opened: {}. Name another file.", path,
                                                std::strerror(errno)));
     struct stat about {};
-    const bool is_file = ::fstat(file, &about) == 0 && S_ISREG(about.st_mode);
+    (void)::fstat(file, &about);  // on an error it is not a file
+    const bool is_file = S_ISREG(about.st_mode);
     if (is_file && (about.st_mode & 0077) != 0 && about.st_uid == ::geteuid()) ::fchmod(file, 0600);
     ::close(file);
     if (is_file) return {};

@@ -48,7 +48,9 @@ TEST_F(DamagedJournal, WithoutDamageIsValid) {
 TEST_F(DamagedJournal, InvalidatesAValueWithAChangedDigit) {
     for (const char* change_it :
          {"UPDATE kept SET value = 'X 62.5'", "UPDATE kept SET run = 2", "UPDATE kept SET utc_ms = utc_ms + 1",
-          "UPDATE kept SET key = 'machine ', seal = seal", "UPDATE kept SET seal = ''"}) {
+          "UPDATE kept SET key = 'machine ', seal = seal", "UPDATE kept SET seal = ''",
+          "CREATE TABLE loose AS SELECT * FROM kept; DROP TABLE kept; ALTER TABLE loose RENAME TO kept; "
+          "UPDATE kept SET value = NULL"}) {
         make();
         change(change_it);
         const LastRun last = next();
@@ -105,6 +107,7 @@ TEST_F(DamagedJournal, DetectsChangedAndRemovedEntries) {
         {"UPDATE entry SET at = at + 1 WHERE number = 1", "entry 1 was changed"},
         {"UPDATE entry SET kind = 'order' WHERE number = 3", "entry 3 was changed"},
         {"UPDATE entry SET text = text || data, data = '' WHERE number = 3", "entry 3 was changed"},
+        {"UPDATE entry SET text = 'tow' WHERE number > 1", "entry 2 was changed"},
         {"DELETE FROM entry WHERE number = 2", "entries 2 to 2 were removed"},
         {"DELETE FROM entry WHERE number = 1", "entries 1 to 1 were removed"},
         {"DELETE FROM entry WHERE number > 1", "entries 2 to 3 were removed"},

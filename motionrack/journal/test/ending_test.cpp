@@ -54,6 +54,10 @@ TEST_F(JournalFile, AcceptsPendingEntriesUpToItsLimit) {
     EXPECT_THAT(journal->failure(), IsEmpty());
     journal->write(Instant{}, "state", "one too many");
     EXPECT_THAT(journal->failure(), HasSubstr("100000 entries wait for the disk"));
+    std::string refused;
+    journal->write(Instant{}, "state", "another one", "{}",
+                   [&](const Result<std::int64_t>& number) { refused = number ? "written" : number.error().message; });
+    EXPECT_EQ(refused, "It was not written to the journal: 100000 entries wait for the disk, which is the limit.");
     go_on.set_value();
     EXPECT_FALSE(journal->close());
     EXPECT_EQ(all_entries().size(), Journal::max_waiting + 1);
@@ -83,6 +87,25 @@ TEST(FileWatch, DetectsThatAFileAddedSinceItsStartIsGone) {
     const Result<void> cut = watch.check();
     ASSERT_FALSE(cut);
     EXPECT_THAT(cut.error().message, HasSubstr("was cut from 17 to 8 bytes"));
+    fs::remove(path);
+    FileWatch without;
+    without.add(path);
+    EXPECT_TRUE(without.check()) << "a file that was missing is not watched";
+}
+
+TEST(FileWatch, DetectsThatALinkHasTakenThePlaceOfAFile) {
+    const std::string path = testing::TempDir() + "file_watch_link_" + std::to_string(::getpid());
+    std::ofstream(path) << "begun";
+    FileWatch watch;
+    watch.add(path);
+    const auto link_to = [&](const fs::path& to) {
+        fs::remove(path);
+        fs::create_symlink(to, path);
+        const Result<void> checked = watch.check();
+        return checked ? std::string() : checked.error().message;
+    };
+    EXPECT_THAT(link_to("/proc/self/status"), HasSubstr("was replaced while it was in use")) << "by one elsewhere";
+    EXPECT_THAT(link_to(path), HasSubstr("cannot be checked: Too many levels of symbolic links"));
     fs::remove(path);
 }
 

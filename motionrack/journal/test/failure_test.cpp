@@ -57,6 +57,18 @@ TEST_F(JournalOnABadDisk, ReportsAFullDiskAndHasNoCleanEnd) {
     EXPECT_EQ(all_entries().size(), 2u);
 }
 
+TEST_F(JournalOnABadDisk, IsRefusedIfItsStartCannotBeWritten) {
+    EXPECT_TRUE(open()->close());
+    {
+        const BadDisk disk({BadDisk::Fault::stay, 1});
+        const auto refused = Journal::open(path_);
+        ASSERT_FALSE(refused);
+        EXPECT_THAT(refused.error().message,
+                    testing::AllOf(HasSubstr("cannot be written"), HasSubstr("Free the disk")));
+    }
+    EXPECT_TRUE(open()->before()->clean) << "the refused start has left nothing";
+}
+
 TEST_F(JournalOnABadDisk, DetectsThatOneOfItsFilesWasDeletedReplacedOrTruncated) {
     const auto copy_over = [this](const char* end) {
         fs::copy_file(path_ + end, path_ + ".copy");

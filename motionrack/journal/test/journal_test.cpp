@@ -104,6 +104,27 @@ TEST_F(JournalFile, IsReadableByItsOwnerOnly) {
     ::umask(before);
 }
 
+TEST_F(JournalFile, OfAnotherUserKeepsItsRights) {
+    if (::geteuid() != 0) GTEST_SKIP() << "only root can give a file to another user";
+    open();
+    ASSERT_EQ(::chown(path_.c_str(), 65534, 65534), 0);
+    ASSERT_EQ(::chmod(path_.c_str(), 0644), 0);
+    open();
+    EXPECT_EQ(fs::status(path_).permissions(),
+              fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read | fs::perms::others_read);
+}
+
+/// SQLite reads paths of 512 bytes at most.
+TEST_F(JournalFile, WithAPathThatIsTooLongIsRefused) {
+    const fs::path top = path_ + ".folder";
+    const fs::path folder = top / std::string(250, 'a') / std::string(250, 'b');
+    fs::create_directories(folder);
+    const auto refused = Journal::open((folder / "journal.db").string());
+    const std::string said = refused ? "opened" : refused.error().message;
+    fs::remove_all(top);
+    EXPECT_NE(said.find("cannot be opened: unable to open database file"), std::string::npos) << said;
+}
+
 TEST_F(JournalFile, IsAFile) {
     fs::create_directory(path_);
     EXPECT_NE(Journal::open(path_).error().message.find("Is a directory"), std::string::npos);
@@ -121,6 +142,10 @@ TEST_F(JournalFile, RefusesAVersionThatItDoesNotKnow) {
     const auto refused = Journal::open(path_);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("version 9"), std::string::npos) << refused.error().message;
+    change("PRAGMA user_version = 0");
+    const auto before_all = Journal::open(path_);
+    ASSERT_FALSE(before_all);
+    EXPECT_NE(before_all.error().message.find("version 0"), std::string::npos) << before_all.error().message;
 }
 
 TEST_F(JournalFile, ReportsADiskThatRefusesIt) {

@@ -53,5 +53,41 @@ TEST_F(JournalFile, WarnsBeforeItsQuotaAndKeepsTheNewestEntriesWithinIt) {
     EXPECT_EQ(journal->before()->damage, "");
 }
 
+TEST_F(JournalFile, KeepsItsHundredNewestEntriesBeyondItsQuota) {
+    JournalSettings settings;
+    settings.max_bytes = 200'000;
+    const auto journal = *Journal::open(path_, settings);
+    for (int i = 0; i < 90; ++i) EXPECT_GT(write(*journal, "audit", std::string(4'000, 'x')), i);
+    EXPECT_EQ(journal->read({0, "audit", 1000})->size(), 90u);
+    const auto reported = journal->read({0, "journal", 1000});
+    ASSERT_EQ(reported->size(), 1u) << "with nobody to call, the warning is in the journal";
+    EXPECT_THAT(reported->front().text, HasSubstr("of its quota of 0.2 MB"));
+}
+
+TEST_F(JournalFile, RemovesATenthOfItsEntriesAtItsQuota) {
+    std::vector<std::string> reported;  // each before write() returns
+    JournalSettings settings;
+    settings.max_bytes = 400'000;
+    settings.on_quota = [&](const std::string& sentence) { reported.push_back(sentence); };
+    const auto journal = *Journal::open(path_, settings);
+    std::int64_t last = 0;
+    while (reported.size() < 2) last = write(*journal, "audit", std::string(1'500, 'x'));
+    EXPECT_GT(last, 120);
+    EXPECT_THAT(reported[1], HasSubstr("entries before number " + std::to_string(last / 10 + 2) + " were removed"));
+    EXPECT_EQ(journal->read({0, "audit", 1000})->front().number, last / 10 + 2);
+}
+
+TEST_F(JournalFile, ReportsThatItCannotBeKeptWithinItsQuota) {
+    JournalSettings settings;
+    settings.max_bytes = 200'000;
+    const auto journal = *Journal::open(path_, settings);
+    change("CREATE TRIGGER no BEFORE DELETE ON entry BEGIN SELECT RAISE(ABORT, 'they stay'); END");
+    for (int i = 0; i < 110; ++i) write(*journal, "audit", std::string(2'000, 'x'));
+    EXPECT_THAT(journal->failure(), HasSubstr("could not be kept within its quota: they stay"));
+    EXPECT_EQ(journal->read({0, "audit", 1000})->size(), 110u);
+    EXPECT_EQ(journal->check()->problem, "") << "its chain begins where it began";
+    EXPECT_FALSE(journal->close());
+}
+
 }  // namespace
 }  // namespace motionrack::journal
