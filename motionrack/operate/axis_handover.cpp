@@ -1,6 +1,5 @@
 // Handovers of the axes between the executor and other drivers.
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <motionrack/operate/axis_handover.hpp>
 #include <motionrack/rack/job.hpp>
 #include <utility>
@@ -38,15 +37,14 @@ Result<void> AxisHandover::take_group() {
 }
 
 Result<control::Axis*> AxisHandover::take_axis(char letter) {
-    for (rack::RunningAxis& axis : rack_.axes()) {
-        if (axis.config.letter != letter) continue;
-        group_holds_ = false;
-        in_progress_ = true;
-        Result<control::Axis*> taken = axis.card->axis(rack_.config(), letter);
-        in_progress_ = false;
-        return taken;
-    }
-    return fail(ErrorKind::invalid_input, fmt::format("The machine has no axis {}.", letter));
+    const rack::RunningAxis& axis =
+        *std::find_if(rack_.axes().begin(), rack_.axes().end(),
+                      [letter](const rack::RunningAxis& one) { return one.config.letter == letter; });
+    group_holds_ = false;
+    in_progress_ = true;
+    Result<control::Axis*> taken = axis.card->axis(rack_.config(), letter);
+    in_progress_ = false;
+    return taken;
 }
 
 Result<void> AxisHandover::hand_over(const std::function<Result<void>()>& set_up) {

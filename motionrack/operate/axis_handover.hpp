@@ -30,7 +30,7 @@ class AxisHandover {
     Result<void> start(const rack::RackConfig& config);
     /// Gives the axes to the executor, unless it has them. Errors: as Rack::path_axes.
     Result<void> take_group();
-    /// Returns an axis to be driven alone. Errors: invalid_input for an unknown axis; as Card::axis.
+    /// Returns an axis of the rack to be driven alone. Errors: as Card::axis.
     Result<control::Axis*> take_axis(char letter);
     /// Records that another driver takes axes.
     void release() { group_holds_ = false; }

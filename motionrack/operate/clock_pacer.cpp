@@ -10,18 +10,13 @@ namespace {
 
 constexpr Duration max_wait = milliseconds(5);
 
+constexpr std::array<std::string_view, 3> mode_names = {"real", "unthrottled", "paused"};
+static_assert(mode_names[static_cast<std::size_t>(ClockMode::paused)] == "paused");
+
 }  // namespace
 
 std::string_view name_of(ClockMode mode) {
-    switch (mode) {
-        case ClockMode::real:
-            return "real";
-        case ClockMode::unthrottled:
-            return "unthrottled";
-        case ClockMode::paused:
-            return "paused";
-    }
-    return "";
+    return mode_names[static_cast<std::size_t>(mode)];
 }
 
 void Lateness::add(Duration late) {

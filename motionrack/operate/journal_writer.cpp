@@ -39,8 +39,9 @@ json axes_json(const std::vector<AxisStatus>& axes) {
     return out;
 }
 
+/// `text`: not empty.
 std::string sentence(std::string text) {
-    if (!text.empty() && text.back() != '.') text += '.';
+    if (text.back() != '.') text += '.';
     return text;
 }
 
@@ -83,7 +84,9 @@ bool JournalWriter::may_repeat(Instant at) {
         repeated_ = at;
     }
     if (repeats_ == 0) repeated_ = at;
-    return repeats_ < max_repeats && ++repeats_ > 0;
+    if (repeats_ >= max_repeats) return false;
+    ++repeats_;
+    return true;
 }
 
 void JournalWriter::write(Instant at, const std::string& kind, const std::string& text, const std::string& data) {
@@ -156,7 +159,8 @@ void JournalWriter::see_settings(const Status& status) {
 }
 
 void JournalWriter::see_positions(const Status& status) {
-    for (std::size_t i = 0; i < status.axes.size() && i < positions_valid_.size(); ++i) {
+    const std::size_t count = std::min(status.axes.size(), positions_valid_.size());
+    for (std::size_t i = 0; i < count; ++i) {
         const AxisStatus& axis = status.axes[i];
         if (axis.position_valid == positions_valid_[i]) continue;
         positions_valid_[i] = axis.position_valid;
@@ -170,7 +174,8 @@ void JournalWriter::see_positions(const Status& status) {
 
 /// Returns true if an axis has moved at standstill: a servo may be pushed, or settle late.
 bool JournalWriter::has_shifted(const Status& status) const {
-    for (std::size_t i = 0; i < kept_axes_.size() && i < status.axes.size(); ++i)
+    const std::size_t count = std::min(status.axes.size(), kept_axes_.size());
+    for (std::size_t i = 0; i < count; ++i)
         if (std::fabs(status.axes[i].commanded - kept_axes_[i]) > min_shift) return true;
     return false;
 }

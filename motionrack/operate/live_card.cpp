@@ -94,7 +94,7 @@ void LiveCard::look_now_and_then() {
 
 bool LiveCard::wait(Duration timeout) {
     const Instant end = later(now(), timeout);
-    while (true) {
+    for (;;) {
         const Duration left = std::clamp(end - now(), Duration{0}, live_piece);
         const bool woken = !lost_ && card_.port->wait(left);
         if (lost_) clock_.sleep(left);

@@ -39,7 +39,7 @@ Result<void> ManualAccess::request(const BusAccess& access, Answered ready) {
                         name_of(machine_.publisher_.state())));
     MOTIONRACK_CHECK(
         rack::card_for_access(machine_.rack_, access.card, access.bits, access.address, access.value.has_value()));
-    if (access.value && access.bits < 32 && *access.value >> access.bits != 0)
+    if (access.value && std::uint64_t{*access.value} >> access.bits != 0)
         return fail(ErrorKind::refused,
                     fmt::format("{} does not fit into {} bits. Nothing was done.", *access.value, access.bits));
     if (access.value) MOTIONRACK_CHECK(check_write(access.card));

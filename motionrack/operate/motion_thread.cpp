@@ -61,8 +61,7 @@ std::string alarm_source(const rack::StopLatch& latch) {
 
 /// An axis left without a position by homing or by its own card reports that itself.
 bool says_lost(const std::string& text) {
-    const std::size_t at = text.find(" not valid");
-    return at != std::string::npos && text.rfind("position", at) != std::string::npos;
+    return text.find(" not valid") != std::string::npos;
 }
 
 /// Describes the cause or source of the stop, and the remedy.
@@ -120,7 +119,7 @@ void Machine::enter_error_stop(std::string source, std::string text) {
     if (!lost.empty() || (latch.latched() && !says_lost(text))) text += ' ' + latch.position_sentence();
     const std::string unknown = validity_.invalidate_unknown();
     if (!unknown.empty() && !says_lost(text))
-        text += fmt::format(" The position of {} is not valid any more; home again.", unknown);
+        text += fmt::format(" The position of {} is not valid any more; home again.", fmt::join(unknown, ", "));
     if (source.empty() && !(lost + unknown).empty()) source = "position";
     if (!source.empty()) alarms_.supersede(lost + unknown);
     publisher_.tools_off();
@@ -161,28 +160,18 @@ void Machine::drive() {
         programs_.stream().drive(programs_.more_may_come(now(), settings_.quiet));
     if (!driven) return failed(driven.error());
     if (*driven != control::ExecutionState::running) rack_.stop_latch().settle();  // a stop by a card also ends a hold
-    switch (*driven) {
-        case control::ExecutionState::waiting:
-            host_of(rack_).pass(milliseconds(1));
-            break;
-        case control::ExecutionState::feed_hold:
-        case control::ExecutionState::paused:
-            if (state() == MachineState::moving)
-                publisher_.enter(MachineState::hold, *driven == control::ExecutionState::feed_hold
-                                                         ? "feed hold; continue with resume"
-                                                         : "the program waits; continue with resume");
-            host_of(rack_).pass(settings_.slice);
-            break;
-        case control::ExecutionState::idle:
-            if (programs_.has_lines()) break;
-            programs_.end();
-            if (manual_.jogs().any()) break;  // commanded while this motion ended
-            if (state() == MachineState::moving || state() == MachineState::jogging)
-                publisher_.enter(MachineState::standstill);
-            break;
-        case control::ExecutionState::running:
-            break;
+    if (*driven == control::ExecutionState::waiting) host_of(rack_).pass(milliseconds(1));
+    const bool is_held = *driven == control::ExecutionState::feed_hold;
+    if (is_held || *driven == control::ExecutionState::paused) {
+        if (state() == MachineState::moving)
+            publisher_.enter(MachineState::hold,
+                             is_held ? "feed hold; continue with resume" : "the program waits; continue with resume");
+        host_of(rack_).pass(settings_.slice);
     }
+    if (*driven != control::ExecutionState::idle || programs_.has_lines()) return;
+    programs_.end();
+    if (manual_.jogs().any()) return;  // commanded while this motion ended
+    if (state() == MachineState::moving || state() == MachineState::jogging) publisher_.enter(MachineState::standstill);
 }
 
 // ---- failures

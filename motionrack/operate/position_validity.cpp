@@ -99,7 +99,7 @@ std::string PositionValidity::invalidate_unknown() {
         const char letter = rack_.axes()[i].config.letter;
         if (!of(letter) || watch_.knows_itself(i)) continue;
         invalidate(letter);
-        out += fmt::format("{}{}", out.empty() ? "" : ", ", letter);
+        out += letter;
     }
     return out;
 }

@@ -35,7 +35,7 @@ class PositionValidity {
     /// Returns alarms with source, text and axis for losses, count errors and following errors since the last look.
     /// Call regularly between motions.
     std::vector<Alarm> poll(Instant now, MachineState state);
-    /// Invalidates axes that have lost their own position. Call at standstill. Returns their letters: "X, Y".
+    /// Invalidates axes that have lost their own position. Call at standstill. Returns their letters: "XY".
     std::string invalidate_unknown();
 
   private:

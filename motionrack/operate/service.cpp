@@ -149,8 +149,9 @@ Result<void> Service::take_library() {
         library_ = machine_.rack_.card(card_)->take_library();
         return library_->begin();
     }
-    MOTIONRACK_TRY(live_, LiveCard::open(*place, machine_.rack_));
-    library_ = live_->make_library();
+    MOTIONRACK_TRY(std::unique_ptr<LiveCard> card, LiveCard::open(*place, machine_.rack_));
+    library_ = card->make_library();
+    live_ = std::move(card);
     MOTIONRACK_CHECK(library_->begin());
     live_->poll();
     if (live_->lost()) return tl::unexpected<Error>(*live_->lost());
@@ -172,7 +173,7 @@ void Service::work() {
 // ---- a real card
 
 Service::~Service() {
-    if (live_ && library_) library_->stop_now();
+    if (live_) library_->stop_now();
 }
 
 std::span<const LivePlace> Service::live_places() const {

@@ -3,28 +3,16 @@
 
 namespace motionrack::operate {
 
+namespace {
+
+constexpr std::array<std::string_view, 9> state_names = {"disabled", "standstill", "homing",     "moving", "jogging",
+                                                         "hold",     "stopping",   "error stop", "service"};
+static_assert(state_names[static_cast<std::size_t>(MachineState::service)] == "service");
+
+}  // namespace
+
 std::string_view name_of(MachineState state) {
-    switch (state) {
-        case MachineState::disabled:
-            return "disabled";
-        case MachineState::standstill:
-            return "standstill";
-        case MachineState::homing:
-            return "homing";
-        case MachineState::moving:
-            return "moving";
-        case MachineState::jogging:
-            return "jogging";
-        case MachineState::hold:
-            return "hold";
-        case MachineState::stopping:
-            return "stopping";
-        case MachineState::error_stop:
-            return "error stop";
-        case MachineState::service:
-            return "service";
-    }
-    return "";
+    return state_names[static_cast<std::size_t>(state)];
 }
 
 }  // namespace motionrack::operate
