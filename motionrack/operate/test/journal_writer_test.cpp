@@ -232,6 +232,7 @@ TEST_F(JournalWriterTest, IgnoresUnreadableEntries) {
          {"", "[]", "7", "{\"axes\": 3}",
           "{\"axes\": [1, {\"letter\": 5}, {\"letter\": \"X\"}, {\"letter\": \"XY\", \"true_position\": 1, "
           "\"commanded\": 1}, {\"letter\": \"Q\", \"true_position\": 1, \"commanded\": 1}]}",
+          "{\"axes\": [{\"letter\": \"Y\", \"true_position\": 1, \"commanded\": \"1\", \"position_valid\": true}]}",
           "{\"line\": \"x\", \"state\": 4"}) {
         const LastKnownPositions last = read_last({1, false, 0, {{"machine", kept}}, {}, {}}, table());
         ASSERT_EQ(last.axes.size(), table().axes.size()) << kept;
