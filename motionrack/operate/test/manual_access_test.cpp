@@ -49,11 +49,22 @@ TEST(ManualAccess, IsAllowedToMeasuringCardsOnlyWhileAxesMove) {
     o.at(0.5, [&](Machine& m) {
         EXPECT_TRUE(read(m, "glass", 0x2300 + ioflex02::offset("STATUS")));
         refused = refusal_of(read(m, "m", 0));
+        EXPECT_EQ(refusal_of(read(m, "nobody", 0)), refused);
     });
     o.at(0.6, [&](Machine&) { EXPECT_EQ(answered, 1); });
     o.run(4);
     EXPECT_THAT(refused, HasSubstr("The card was not accessed: the machine is in state"));
     EXPECT_NEAR(o.x(), 30, 1e-9) << "the motion went on";
+}
+
+TEST(ManualAccess, WritesNoValueThatIsTooWide) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        EXPECT_EQ(write_16(m, "m", 0, 0x10000), "65536 does not fit into 16 bits. Nothing was done.");
+        EXPECT_EQ(write_16(m, "m", 12, 0xFFFF), "");
+        EXPECT_THAT(refusal_of(m.manual().jog('X', 5)), HasSubstr("a card is being accessed; try again at once"));
+    });
+    o.run(0.2);
 }
 
 TEST(ManualAccess, WritesNothingWhileAStopIsInForce) {

@@ -1,0 +1,122 @@
+// Service commands that meet in one slice, or other commands.
+#include <gmock/gmock.h>
+
+#include <motionrack/operate/service.hpp>
+#include <utility>
+
+#include "operated.hpp"
+
+namespace motionrack::operate {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A machine, and what it says of the services of its card.
+struct ServiceTalk : Operated {
+    ServiceTalk() : Operated(two_axes()) {}
+    void begin(Machine& m) {
+        EXPECT_TRUE(m.service().begin("m", {"anna", "", ""}, "w1", [this](const Result<std::string>& reported) {
+            said.push_back(reported ? "in service" : reported.error().message);
+        }));
+    }
+    void call(Machine& m, const std::string& function, const char* argument, std::int64_t value) {
+        const Result<void> taken =
+            m.service().call({"m", function, {{argument, value}}}, {}, "w1", [this](const Result<CallAnswer>& answer) {
+                said.push_back(answer ? answer->text : answer.error().message);
+            });
+        if (!taken) said.push_back("refused: " + taken.error().message);
+    }
+    std::vector<std::string> said;
+};
+
+/// A library whose axes stand after some looks, on a host that only counts time.
+struct SlowCard final : FunctionLibrary, Interrupt {
+    std::span<const FunctionInfo> functions() const override { return {}; }
+    Result<void> begin() override { return {}; }
+    Result<CallAnswer> call(std::size_t, std::span<const std::int64_t>) override { return CallAnswer{}; }
+    bool moving() override { return ++looks <= moves_for; }
+    void stop_now() override { ++stops; }
+    bool wait(Duration timeout) override { return pass(timeout), false; }
+    void pass(Duration duration) override { passed += duration; }
+    Instant now() const override { return Instant{passed}; }
+
+    int moves_for = 0, looks = 0, stops = 0;
+    Duration passed{0};
+};
+
+TEST(StopAtOnce, WaitsUntilTheAxesStandForATenthOfASecondAtMost) {
+    for (const auto& [moves_for, waits] : {std::pair(0, 0), std::pair(7, 7), std::pair(1000, 100)}) {
+        SlowCard card;
+        card.moves_for = moves_for;
+        stop_at_once(card, card);
+        EXPECT_EQ(card.stops, 1);
+        EXPECT_EQ(card.passed, milliseconds(waits));
+    }
+}
+
+TEST(ServiceOrder, OneThatIsStoppedBeforeItsStartTakesNoCard) {
+    for (const bool stops : {true, false}) {
+        SCOPED_TRACE(stops);
+        ServiceTalk o;
+        o.at(0.1, [&](Machine& m) {
+            o.begin(m);
+            o.call(m, "SetRange", "data", 800'000);
+            if (stops)
+                m.stop();
+            else
+                EXPECT_TRUE(m.service().end([&](const Result<std::string>& reported) { o.said.push_back(*reported); }));
+        });
+        o.at(0.2, [&](Machine& m) {
+            EXPECT_FALSE(m.service().on());
+            EXPECT_EQ(m.state(), stops ? MachineState::error_stop : MachineState::standstill);
+            EXPECT_TRUE(m.status().axes[0].position_valid);
+            m.reset();
+        });
+        o.at(0.3, [](Machine& m) { EXPECT_TRUE(m.line("G1 X12 F600", 1)); });
+        o.run(1);
+        EXPECT_NEAR(o.x(), 12, 1e-9);
+        std::vector<std::string> expected = {"Not called. The service of card m was not started.",
+                                             "The service of card m was not started."};
+        if (!stops) expected.push_back(expected.back());
+        EXPECT_EQ(o.said, expected);
+    }
+}
+
+TEST(ServiceOrder, OneCallAtATimeAndNoneAfterTheEnd) {
+    ServiceTalk o;
+    o.at(0.05, [&](Machine& m) { o.begin(m); });
+    o.at(0.1, [&](Machine& m) {
+        o.call(m, "SetRange", "data", 800'000);
+        o.call(m, "ReadLPS", "axis", 1);
+    });
+    o.at(0.2, [&](Machine& m) {
+        EXPECT_TRUE(m.service().end({}));
+        o.call(m, "ReadLPS", "axis", 1);
+    });
+    o.run(0.3);
+    EXPECT_THAT(o.said, ElementsAre("in service",
+                                    "refused: ReadLPS was not called: SetRange still runs. Wait until it ends, or end "
+                                    "the service.",
+                                    "Written.", "refused: ReadLPS was not called: the service ends."));
+}
+
+TEST(ServiceOrder, NoServiceBeforeAPendingStopIsOver) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        m.cancel();
+        EXPECT_THAT(refusal_of(m.service().begin("m", {}, "", {})),
+                    HasSubstr("a command is still being executed. Nothing was changed; try again at once."));
+        EXPECT_TRUE(m.manual().set_position('X', 20));
+    });
+    o.at(0.2, [](Machine& m) {
+        EXPECT_TRUE(m.service().begin("m", {}, "", {}));
+        EXPECT_EQ(m.status().reason, "card m is in service by this program");
+    });
+    o.at(0.3, [](Machine& m) { m.service().end_of(""); });
+    o.run(0.4);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill);
+}
+
+}  // namespace
+}  // namespace motionrack::operate
