@@ -149,6 +149,28 @@ TEST(Door, OpenedDuringAProgramHoldsTheFeedAndStopsTheSpindle) {
     EXPECT_THAT(o.machine->status().alarms, testing::SizeIs(1));
 }
 
+TEST(Door, OpenedAgainInAHoldKeepsTheSpindleOfTheProgram) {
+    Operated o(two_axes(with_door));
+    o.at(0.02, set_all_positions);
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200 M3 S1000 M7\nG1 X60\nM2\n", "p")); });
+    for (const double seconds : {1.0, 1.4}) {
+        o.at(seconds, [](Machine& m) { open_door(m, true); });
+        o.at(seconds + 0.2, [](Machine& m) {
+            EXPECT_EQ(m.status().spindle, control::gcode::Spindle::off);
+            EXPECT_FALSE(m.status().mist);
+            open_door(m, false);
+        });
+    }
+    o.at(1.8, [](Machine& m) { EXPECT_TRUE(m.resume()); });
+    o.at(2, [](Machine& m) {
+        EXPECT_EQ(m.status().spindle, control::gcode::Spindle::clockwise);
+        EXPECT_TRUE(m.status().mist);
+        EXPECT_THAT(m.status().alarms, testing::SizeIs(2)) << "one an opening";
+    });
+    o.run(6);
+    EXPECT_NEAR(o.x(), 60, 1e-3);
+}
+
 TEST(Door, OpenedDuringAJogStopsItAndPreventsStartsUntilItIsClosed) {
     Operated o(two_axes(with_door + "[axis.X.switches]\nhome_mm = 0\n"));
     o.at(0.02, set_all_positions);

@@ -58,6 +58,17 @@ TEST(JogLease, OfOneSessionOutlivesTheEndOfAnother) {
     EXPECT_NEAR(o.y(), 0.5, 0.03);
 }
 
+TEST(JogLease, ThatEndsBeforeItsStartMovesNothing) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        EXPECT_TRUE(m.manual().jog('X', 2, {"a", 1}));
+        m.manual().jogs().end_of("a");
+    });
+    o.run(1);
+    EXPECT_EQ(o.x(), 10);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill);
+}
+
 TEST(JogLease, IsNotProlongedByARenewalThatIsOlderThanTheStop) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog('X', 2, {"a", 1})); });
