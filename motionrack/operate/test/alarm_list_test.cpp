@@ -18,9 +18,10 @@ class AlarmListTest : public testing::Test {
         for (const Alarm& alarm : alarms) out.push_back(alarm.number);
         return out;
     }
-    std::vector<bool> active() const {
-        std::vector<bool> out;
-        for (const Alarm& alarm : alarms) out.push_back(alarm.active);
+    /// Returns "+-": the first is active, the second is over.
+    std::string active() const {
+        std::string out;
+        for (const Alarm& alarm : alarms) out += alarm.active ? '+' : '-';
         return out;
     }
 
@@ -48,7 +49,7 @@ TEST_F(AlarmListTest, RemovesFirstWhatIsOverAndAcknowledged) {
     EXPECT_TRUE(list.acknowledge(3));
     list.raise("machine", "new");
     EXPECT_THAT(numbers(), ElementsAre(2, 3, 4));
-    EXPECT_THAT(active(), ElementsAre(false, true, true));
+    EXPECT_EQ(active(), "-++");
 }
 
 TEST_F(AlarmListTest, AcknowledgesNoUnknownAlarm) {
@@ -68,9 +69,9 @@ TEST_F(AlarmListTest, HasOneAlarmOfAnAxis) {
     EXPECT_THAT(numbers(), ElementsAre(2, 3, 4)) << "it takes the place of the first";
     EXPECT_EQ(alarms[0].source, "position");
     EXPECT_EQ(alarms[0].text, "Y is off.");
-    EXPECT_THAT(active(), ElementsAre(true, true, true));
+    EXPECT_EQ(active(), "+++");
     list.supersede("XZ");
-    EXPECT_THAT(active(), ElementsAre(true, true, false)) << "neither Y's nor the one of no axis";
+    EXPECT_EQ(active(), "++-") << "neither Y's nor the one of no axis";
     EXPECT_TRUE(alarms[2].acknowledged);
     EXPECT_FALSE(alarms[1].acknowledged);
 }
@@ -81,9 +82,9 @@ TEST_F(AlarmListTest, KeepsAlarmsThatAResetDoesNotEnd) {
     list.raise("card bench", "It was read.");
     list.end_staying("card other");
     list.reset();
-    EXPECT_THAT(active(), ElementsAre(true, false, false));
+    EXPECT_EQ(active(), "+--");
     list.end_staying("card bench");
-    EXPECT_THAT(active(), ElementsAre(false, false, false));
+    EXPECT_EQ(active(), "---");
     EXPECT_FALSE(alarms[0].stays);
 }
 

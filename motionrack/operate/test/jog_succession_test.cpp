@@ -73,5 +73,20 @@ TEST(JogSuccession, OfAServoNeverReportsStandstill) {
     expect_never_called_standstill(carriage(), release, 0.1, 0.105);
 }
 
+TEST(JogSuccession, EndsAtOnceWhereAStopComesWhileItsAxisIsTakenOver) {
+    for (double stop = 0.1001; stop < 0.11; stop += 0.0005) {
+        SCOPED_TRACE(testing::Message() << "the stop at " << stop << " s");
+        MachineSettings settings;
+        settings.slice = microseconds(100);
+        Operated o(carriage(), std::move(settings));
+        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 0)); });
+        o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog('X', 50)); });
+        o.at(stop, [](Machine& m) { m.cancel(); });
+        o.run(0.6);
+        EXPECT_EQ(o.machine->state(), MachineState::standstill);
+        EXPECT_LT(std::fabs(o.x()), 3) << "a jog of a whole lease takes it 12 mm";
+    }
+}
+
 }  // namespace
 }  // namespace motionrack::operate

@@ -1,6 +1,6 @@
 // A served servo, whose card counts its encoder: what it knows of its place, and what of that is left when something
 // breaks.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <motionrack/rack/faults.hpp>
 
@@ -147,6 +147,29 @@ TEST(OperatedServoAxis, HasTheDeclaredPosition) {
     o.run(3);
     EXPECT_NEAR(reported, 100, 0.011);
     EXPECT_NEAR(o.x(), 120, 0.3);
+}
+
+TEST(OperatedServoAxis, HasNoPositionAfterOneThatItsCardCannotCount) {
+    Operated o(carriage());
+    const auto set_too_far = [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 1e9)); };
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 100)); });
+    o.at(0.2, set_too_far);
+    o.at(0.4, [=](Machine& m) {
+        EXPECT_FALSE(m.status().axes[0].position_valid);
+        EXPECT_THAT(m.status().reason, testing::HasSubstr("Position of axis X: it is 1"));
+        ASSERT_THAT(m.status().alarms, testing::SizeIs(1));
+        EXPECT_EQ(m.status().alarms[0].axis, 'X');
+        EXPECT_EQ(m.status().alarms[0].text,
+                  "The position of axis X was not set, and is not valid any more: " + m.status().reason);
+        set_too_far(m);
+    });
+    o.at(0.6, [](Machine& m) {
+        EXPECT_THAT(m.status().alarms, testing::SizeIs(1)) << "it had none to lose";
+        EXPECT_TRUE(m.manual().set_position('X', 50));
+    });
+    o.run(0.8);
+    EXPECT_TRUE(o.machine->status().axes[0].position_valid);
+    EXPECT_NEAR(o.x(), 50, 0.02);
 }
 
 TEST(OperatedServoAxis, ContinuesCountingWhenPushedBeforeItsCardKnowsThePosition) {
