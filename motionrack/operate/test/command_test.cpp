@@ -174,6 +174,7 @@ TEST(Machine, FailsAtALineThatAMissingContactHasMadeImpossible) {
         EXPECT_THAT(m.status().alarms[0].source, HasSubstr("touch.ngc, line"));
         EXPECT_THAT(m.status().alarms[0].text, HasSubstr("9999"));
         EXPECT_NEAR(m.status().axes[0].commanded, 20, 1e-2);
+        EXPECT_THAT(refusal_of(m.manual().jog('X', 5)), HasSubstr("the machine is in error stop; see its alarm"));
         m.reset();
     });
     o.at(2.1, [](Machine& m) { EXPECT_TRUE(m.line("G90 G0 X25", 1)); });

@@ -101,6 +101,25 @@ TEST(ServiceOrder, OneCallAtATimeAndNoneAfterTheEnd) {
                                     "Written.", "refused: ReadLPS was not called: the service ends."));
 }
 
+TEST(ServiceOrder, ProgramsCanBeStoppedAfterAService) {
+    for (const char* const card : {"free", "m"})
+        for (const std::string profile : {"trapezoid", "jerk_limited"}) {
+            SCOPED_TRACE(card + (' ' + profile));
+            Operated o(two_axes("[card.free]\ntype = \"mcx314\"\n[controller]\nprofile = \"" + profile + "\"\n"));
+            o.at(0.05, [=](Machine& m) { EXPECT_TRUE(m.service().begin(card, {}, "", {})); });
+            o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.service().end({})); });
+            o.at(0.3, [](Machine& m) {
+                EXPECT_TRUE(m.manual().set_position('X', 10));
+                EXPECT_TRUE(m.manual().set_position('Y', 0));
+            });
+            o.at(0.4, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X200\nM2\n", "p")); });
+            o.at(1, [](Machine& m) { m.cancel(); });
+            o.run(1.5);
+            EXPECT_LT(o.stood_since, 1.2);
+            EXPECT_GT(o.x(), 15);
+        }
+}
+
 TEST(ServiceOrder, NoServiceBeforeAPendingStopIsOver) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
