@@ -185,6 +185,25 @@ TEST(OperatedServoAxis, ContinuesCountingWhenPushedBeforeItsCardKnowsThePosition
     EXPECT_NEAR(axis.commanded, 100.59, 0.011);
 }
 
+TEST(OperatedServoAxis, HasAValidPositionAlsoIfItIsPushedAllTheTime) {
+    Operated o(carriage());
+    double stood = 0;
+    o.each_status([&](const Status& status) {
+        const double seconds = to_seconds(status.at);
+        if (seconds < 0.1 || seconds > 0.25) return;
+        EXPECT_TRUE(rack::inject_fault(o.machine->rack(), "motor.push=2", "X"));  // counts of 0.01 mm
+    });
+    o.at(0.2, [&](Machine& m) {
+        stood = m.rack().axes()[0].machine->position(m.now());
+        EXPECT_TRUE(m.manual().set_position('X', 100));
+    });
+    o.run(0.5);
+    const AxisStatus& axis = o.machine->status().axes[0];
+    EXPECT_GT(axis.true_position, stood + 0.1);
+    EXPECT_TRUE(axis.position_valid);
+    EXPECT_NEAR(axis.commanded, 100 + axis.true_position - stood, 0.5);
+}
+
 /// Its watchdog does not reset it then, so that it drives on by its last commands.
 TEST(OperatedServoAxis, StaysAtStandstillIfItsCardHangsForLessThanASecond) {
     struct Motion {
