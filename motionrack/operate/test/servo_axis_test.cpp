@@ -108,6 +108,23 @@ TEST(OperatedServoAxis, MovesAgainAfterItsCardWasReset) {
     }
 }
 
+TEST(OperatedServoAxis, LosesItsPositionWhereItsCardIsRestartedInAnErrorStop) {
+    Operated o(carriage());
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 100)); });
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
+    o.at(0.5, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        EXPECT_TRUE(m.status().axes[0].position_valid) << "it stood";
+        EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board"));
+    });
+    o.run(3);
+    EXPECT_FALSE(o.machine->status().axes[0].position_valid);
+    ASSERT_THAT(o.machine->status().alarms, testing::SizeIs(2));
+    EXPECT_EQ(o.machine->status().alarms[1].text,
+              "The watchdog of card board restarted it. The position of axis X is not valid any more.");
+    EXPECT_EQ(o.machine->status().alarms[1].axis, 'X');
+}
+
 /// The host waits for the card, then for its position, before the line has failed; lines are taken all the while.
 TEST(OperatedServoAxis, IsUsableAfterLinesAndHoldsDuringAHangOfItsCard) {
     for (const double hangs_at : {0.15, 0.3, 0.33, 0.4}) {
