@@ -120,6 +120,27 @@ TEST(ServiceOrder, ProgramsCanBeStoppedAfterAService) {
         }
 }
 
+/// The card is reset at its start, and does not answer meanwhile.
+TEST(ServiceOrder, AStopAtAnyInstantOfTheStartEndsTheService) {
+    for (const double delay : {0.0005, 0.002, 0.01, 0.05, 0.2}) {
+        SCOPED_TRACE(delay);
+        MachineSettings settings;
+        settings.slice = microseconds(100);
+        Operated o(carriage(), std::move(settings));
+        int reported = 0;
+        o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 100)); });
+        o.at(0.2, [&](Machine& m) {
+            EXPECT_TRUE(m.service().begin("board", {}, "", [&](const Result<std::string>&) { ++reported; }));
+        });
+        o.at(0.2 + delay, [](Machine& m) { m.stop({"anna", "", "STOP"}); });
+        o.run(4);
+        EXPECT_EQ(reported, 1);
+        EXPECT_FALSE(o.machine->service().on());
+        EXPECT_EQ(o.machine->state(), MachineState::error_stop);
+        EXPECT_FALSE(o.machine->status().axes[0].position_valid) << "the service had taken its card";
+    }
+}
+
 TEST(ServiceOrder, NoServiceBeforeAPendingStopIsOver) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
