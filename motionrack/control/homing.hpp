@@ -55,6 +55,12 @@ struct HomingStateVisit {
     double to = 0;
 };
 
+/// Current homing state of an axis.
+struct AxisHomingState {
+    char letter = 'X';
+    std::string state;  ///< "SLOW_WAIT"
+};
+
 struct HomingResult {
     HomingMethod method = HomingMethod::twice_to_switch;
     bool towards_plus = false;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <motionrack/base/time.hpp>
 #include <motionrack/control/gcode/canon_call.hpp>
+#include <motionrack/control/homing.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -99,11 +100,11 @@ struct Status {
     double spindle_rpm = 0;
     bool mist = false, flood = false;
     double feed_override = 1, rapid_override = 1;
-    std::string homing;         ///< "X SLOW_WAIT, Y HOMED": progress of the last homing
-    std::string service;        ///< card in service; empty: none
-    bool real = false;          ///< the card in service is a real one, which moves
-    std::vector<Alarm> alarms;  ///< oldest first
-    bool ended = false;         ///< the last status of the run
+    std::vector<control::AxisHomingState> homing;  ///< progress of the last homing
+    std::string service;                           ///< card in service; empty: none
+    bool real = false;                             ///< the card in service is a real one, which moves
+    std::vector<Alarm> alarms;                     ///< oldest first
+    bool ended = false;                            ///< the last status of the run
 };
 
 }  // namespace motionrack::operate

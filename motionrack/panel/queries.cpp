@@ -5,7 +5,7 @@
 #include <motionrack/panel/panel_context.hpp>
 #include <motionrack/panel/status_writer.hpp>
 #include <motionrack/rack/bus_access.hpp>
-#include <motionrack/rack/homing.hpp>
+#include <motionrack/rack/homing_report.hpp>
 
 namespace motionrack::panel {
 
@@ -127,7 +127,7 @@ Result<json> control_of(PanelContext& context) {
 
 Result<json> homing_of(PanelContext& context) {
     const auto& homed = context.machine.manual().last_homing();
-    return json{{"homing", homed ? json::parse(rack::homing_json(*homed)) : json()}};
+    return json{{"homing", homed ? json(rack::homing_report(*homed)) : json()}};
 }
 
 constexpr std::array looking = {

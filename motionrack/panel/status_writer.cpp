@@ -37,14 +37,9 @@ json clock_of(const operate::ClockPacer* pacer) {
             {"lost_s", to_seconds(pacer->lost())}};
 }
 
-/// Splits "X SLOW_WAIT, Y HOMED" by axis.
-json phases_of(const std::string& states) {
+json phases_of(const std::vector<control::AxisHomingState>& states) {
     json out = json::object();
-    for (std::size_t at = 0; at + 2 < states.size();) {
-        const std::size_t end = std::min(states.find(", ", at), states.size());
-        out[states.substr(at, 1)] = states.substr(at + 2, end - at - 2);
-        at = end + 2;
-    }
+    for (const control::AxisHomingState& one : states) out[std::string(1, one.letter)] = one.state;
     return out;
 }
 

@@ -255,10 +255,8 @@ class Homing {
         p.axes = static_cast<int>(works_.size());
         p.homed = static_cast<int>(
             std::count_if(works_.begin(), works_.end(), [](const Work& work) { return work.axis->position_valid(); }));
-        for (const Work* work : group) {
-            if (!p.states.empty()) p.states += ", ";
-            p.states += fmt::format("{} {}", work->running->config.letter, work->axis->home_state());
-        }
+        for (const Work* work : group)
+            p.states.push_back({work->running->config.letter, std::string(work->axis->home_state())});
         settings_.progress(p);
     }
 

@@ -22,7 +22,7 @@ struct HomingProgress {
     double seconds = 0;  ///< virtual time since the start of homing
     int homed = 0;
     int axes = 0;
-    std::string states;  ///< "X SLOW_WAIT, Y HOMED"
+    std::vector<control::AxisHomingState> states;  ///< states of the axes that home together
 };
 
 /// Distance of each axis' index from its switch, as found by the first homing.
@@ -71,6 +71,8 @@ struct HomingOutcome {
 /// Homes axes of a started rack. Leaves them at standstill; the positions of the homed axes are valid.
 HomingOutcome home_axes(Rack& rack, const HomingSettings& settings);
 
+/// Returns "X SLOW_WAIT, Y HOMED".
+std::string homing_states_text(const std::vector<control::AxisHomingState>& states);
 /// Formats the results as a table for a terminal; reproducible.
 std::string homing_text(const HomingOutcome& outcome);
 std::string homing_json(const HomingOutcome& outcome);

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <motionrack/rack/homing.hpp>
+#include <motionrack/rack/homing_report.hpp>
 #include <motionrack/trace/svg.hpp>
 #include <nlohmann/json.hpp>
 
@@ -104,6 +104,13 @@ nlohmann::ordered_json axis_json(const HomedAxis& axis) {
 
 }  // namespace
 
+std::string homing_states_text(const std::vector<control::AxisHomingState>& states) {
+    std::string out;
+    for (const control::AxisHomingState& one : states)
+        out += fmt::format("{}{} {}", out.empty() ? "" : ", ", one.letter, one.state);
+    return out;
+}
+
 std::string homing_text(const HomingOutcome& outcome) {
     std::string out;
     for (const HomedAxis& axis : outcome.axes) out += axis_text(axis) + "\n";
@@ -112,14 +119,18 @@ std::string homing_text(const HomingOutcome& outcome) {
     return out;
 }
 
-std::string homing_json(const HomingOutcome& outcome) {
+nlohmann::ordered_json homing_report(const HomingOutcome& outcome) {
     nlohmann::ordered_json j = {{"homed", outcome.all_homed()},
                                 {"duration_s", rounded(outcome.seconds)},
                                 {"error", outcome.ended ? nlohmann::ordered_json(nullptr)
                                                         : nlohmann::ordered_json(outcome.ended.error().message)}};
     j["axes"] = nlohmann::ordered_json::array();
     for (const HomedAxis& axis : outcome.axes) j["axes"].push_back(axis_json(axis));
-    return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return j;
+}
+
+std::string homing_json(const HomingOutcome& outcome) {
+    return homing_report(outcome).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 std::string homing_picture(const HomedAxis& axis) {

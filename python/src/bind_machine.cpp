@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/quantities.hpp>
 #include <python/src/bindings.hpp>
 #include <python/src/rack_lock.hpp>
@@ -79,7 +80,7 @@ py::dict dict_of(const operate::Status& status) {
     out["program_runs"] = status.program_runs;
     out["feed_override"] = status.feed_override;
     out["rapid_override"] = status.rapid_override;
-    out["homing"] = status.homing;
+    out["homing"] = rack::homing_states_text(status.homing);
     out["alarms"] = alarms;
     return out;
 }

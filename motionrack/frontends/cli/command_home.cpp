@@ -77,7 +77,8 @@ int home(const HomeOptions& options) {
     settings.progress = [&progress](const rack::HomingProgress& p) {
         // The duration is unknown in advance: the bar shows the number of homed axes.
         progress.show(p.axes > 0 ? static_cast<double>(p.homed) / p.axes + 0.003 * std::fmod(p.seconds, 30) / 30 : 0,
-                      fmt::format("{} of {} homed, {}, {:.2f} s", p.homed, p.axes, p.states, p.seconds));
+                      fmt::format("{} of {} homed, {}, {:.2f} s", p.homed, p.axes, rack::homing_states_text(p.states),
+                                  p.seconds));
     };
     stop_on_signals();
     const rack::HomingOutcome outcome = rack::home_axes(rack, settings);

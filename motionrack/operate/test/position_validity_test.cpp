@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/homing.hpp>
 
 #include "operated.hpp"
 
@@ -164,11 +165,16 @@ TEST(Machine, InvalidatesAnAxisPushedBetweenTheDeclarationOfItsPositionAndItsEff
     EXPECT_TRUE(o.machine->status().axes[0].position_valid) << "it is declared where it stands now";
 }
 
+/// Returns true if the axes' homing states contain `text`.
+bool is_homing(const Status& status, const char* text) {
+    return rack::homing_states_text(status.homing).find(text) != std::string::npos;
+}
+
 /// The router's A is homed long before the others.
 void push_what_is_home(Operated& o, void (*then)(Machine&)) {
     bool pushed = false;
     o.each_status([&o, then, pushed](const Status& status) mutable {
-        if (status.homing.find("A HOMED") == std::string::npos || std::exchange(pushed, true)) return;
+        if (!is_homing(status, "A HOMED") || std::exchange(pushed, true)) return;
         EXPECT_EQ(status.state, MachineState::homing);
         then(*o.machine);
         EXPECT_TRUE(rack::inject_fault(o.machine->rack(), "motor.push=64", "A"));
@@ -224,7 +230,7 @@ TEST(SecondIndex, IsReportedFromTheSecondHomingOn) {
     Operated o(two_axes(with_index));
     bool disturbs = false, at_switch = false, pulsed = false;
     o.each_status([&](const Status& status) {
-        const auto is_in = [&](const char* state) { return status.homing.find(state) != std::string::npos; };
+        const auto is_in = [&](const char* state) { return is_homing(status, state); };
         at_switch = at_switch || (disturbs && is_in("SLOW_WAIT"));
         if (!at_switch || pulsed || !is_in("INDEX_WAIT") || status.axes[0].true_position > 1.6) return;
         pulsed = true;

@@ -29,7 +29,7 @@ HomingOutcome homed(const std::string& text, const std::string& target, int type
     int looks = 0;
     settings.progress = [&](const HomingProgress& p) {
         if (next == turns.size()) return;
-        looks = p.states == "X " + turns[next].state ? looks + 1 : 0;
+        looks = homing_states_text(p.states) == "X " + turns[next].state ? looks + 1 : 0;
         if (looks < turns[next].looks) return;
         EXPECT_TRUE(inject_fault(rack, turns[next].fault, target));
         ++next;
