@@ -2,6 +2,7 @@
 // in the build folder.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { answered, call } from './library.mjs';
 import {
   openTab,
   picture,
@@ -105,7 +106,7 @@ test('the MCX314 shows its counters, and they count', async () => {
   await done(tab);
 });
 
-test('the DataBoard 4002 answers at its ports by hand, and shows its status', async () => {
+test('the DataBoard 4002 answers at its ports by hand and by its functions, and shows its status', async () => {
   const tab = await at('cards/positioner');
   const ports = panel(tab, 'Ports');
   await ports.getByLabel('Where').selectOption({ label: '01h CS/STAT' });
@@ -115,16 +116,20 @@ test('the DataBoard 4002 answers at its ports by hand, and shows its status', as
     .getByText(/^[0-9A-F]{2}h$/)
     .waitFor();
   await tab.page.getByRole('group', { name: /^STAT/ }).getByText('READY').waitFor();
-  await ports.getByRole('button', { name: /^G: / }).click();
-  await ports.getByRole('log').getByText('command G').waitFor();
-  const commands = panel(tab, 'Commands');
-  await commands.getByLabel('Argument of N').fill('40');
-  await commands.getByRole('button', { name: 'Send N' }).click();
-  await commands.getByRole('button', { name: 'Ask V' }).click();
-  await commands.getByRole('row').filter({ hasText: 'version' }).getByText('32', { exact: true }).waitFor();
-  await commands.getByLabel('Argument of R').fill('99999');
-  await commands.getByRole('button', { name: 'Send R' }).click();
-  await tab.page.getByText(/it must be 0 to 16.383/).waitFor();
+  await ports.getByLabel('Where').selectOption({ label: '03h C2' });
+  await ports.getByLabel('Value').fill("'G'");
+  await ports.getByRole('button', { name: 'Write' }).click();
+  await ports.getByRole('log').getByText('write C2').waitFor();
+  assert.equal(await panel(tab, 'Commands').count(), 0, 'each command once: as a function');
+  await call(tab, 'set_target', { counts: 40 });
+  await answered(tab, /^set_target/);
+  await call(tab, 'version');
+  await answered(tab, /version of its program/);
+  await call(tab, 'set_rate', { rate: 99999 });
+  await tab.page
+    .getByText(/must be 0 to/)
+    .first()
+    .waitFor();
   await picture(tab, 'card_databoard4002', 960);
   await done(tab);
 });

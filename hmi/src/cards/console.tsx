@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { whyNot, commandFor, notice } from '../link/commands';
 import { inControl, standsStill } from '../link/state';
-import type { CardInfo, CommandInfo } from '../link/rack';
+import type { CardInfo } from '../link/rack';
 import { hex } from '../parts/numbers';
 import { Button, Empty, Field, Select } from '../parts/ui';
 import { typedWord } from './words';
@@ -39,23 +39,6 @@ function Log({ lines }: { lines: readonly Line[] }): JSX.Element {
   );
 }
 
-function Commands({ card, onGive }: { card: CardInfo; onGive: (command: CommandInfo) => void }): JSX.Element {
-  const why = mayAccess(card);
-  return (
-    <div class="commands" role="group" aria-label="Commands">
-      {card.commands.map((command) => (
-        <Button
-          key={command.name}
-          why={why}
-          label={`${command.name}: ${command.meaning}`}
-          onClick={() => onGive(command)}>
-          {command.name}
-        </Button>
-      ))}
-    </div>
-  );
-}
-
 export function Console({ card }: { card: CardInfo }): JSX.Element {
   const bits = card.bus.widths[0] ?? 8;
   const log = useSignal<Line[]>([]);
@@ -82,7 +65,6 @@ export function Console({ card }: { card: CardInfo }): JSX.Element {
       );
     else void write(card.bus.base + chosen, what, `write ${namesAt(card, chosen)}`);
   };
-  const commandPort = card.registers.find((one) => one.name === 'C2');
   return (
     <div class="console">
       <Log lines={log.value} />
@@ -104,12 +86,6 @@ export function Console({ card }: { card: CardInfo }): JSX.Element {
           Read
         </Button>
       </div>
-      {commandPort !== undefined && (
-        <Commands
-          card={card}
-          onGive={({ name, code }) => void write(card.bus.base + commandPort.offset, code, `command ${name}`)}
-        />
-      )}
     </div>
   );
 }
