@@ -6,6 +6,8 @@
 #include <motionrack/base/port.hpp>
 #include <motionrack/base/result.hpp>
 #include <motionrack/live/live_port.hpp>
+#include <motionrack/live/port_spec.hpp>
+#include <string_view>
 
 namespace motionrack::live {
 
@@ -20,5 +22,13 @@ struct OpenCard {
 Result<void> check_card(const PortSpec& spec, const CardMap& map);
 /// Errors: as CardPort::open and ByteCardPort::open.
 Result<OpenCard> open_card(const PortSpec& spec, const CardMap& map);
+
+/// Opens the card at an address in text form with the port of its registers' width: CardPort or ByteCardPort. Errors:
+/// as read_port_spec() and Port::open.
+template <class Port>
+Result<std::unique_ptr<Port>> open_card_at(std::string_view place, const CardMap& map) {
+    MOTIONRACK_TRY(const PortSpec spec, read_port_spec(place));
+    return Port::open(spec, map);
+}
 
 }  // namespace motionrack::live

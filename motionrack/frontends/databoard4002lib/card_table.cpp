@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <motionrack/frontends/databoard4002lib/card_table.hpp>
+#include <motionrack/live/open_card.hpp>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,7 @@ std::string listed(const std::vector<std::int64_t>& numbers) {
 Result<std::shared_ptr<DataboardBus>> open_bus(std::string_view place) {
     auto bus = std::make_shared<DataboardBus>();
     if (live::names_real_card(place)) {
-        MOTIONRACK_TRY(const live::PortSpec spec, live::read_port_spec(place));
-        MOTIONRACK_TRY(bus->port, live::ByteCardPort::open(spec, databoard4002::card_map()));
+        MOTIONRACK_TRY(bus->port, live::open_card_at<live::ByteCardPort>(place, databoard4002::card_map()));
     } else {
         MOTIONRACK_TRY(bus->session, rack::Session::open(place));
     }

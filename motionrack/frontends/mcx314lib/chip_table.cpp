@@ -5,6 +5,7 @@
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/frontends/mcx314lib/chip_table.hpp>
 #include <motionrack/frontends/mcx314lib/environment.hpp>
+#include <motionrack/live/open_card.hpp>
 
 namespace motionrack::mcx314lib {
 
@@ -48,8 +49,7 @@ Result<int> ChipTable::open_live(const char* text, const char* card) {
         return fail(ErrorKind::invalid_input,
                     fmt::format("A real card has no name, but the name {} was given. Nothing was opened. Give NULL.",
                                 in_quotes(card)));
-    MOTIONRACK_TRY(const live::PortSpec spec, live::read_port_spec(text));
-    MOTIONRACK_TRY(auto port, live::CardPort::open(spec, mcx314::card_map()));
+    MOTIONRACK_TRY(auto port, live::open_card_at<live::CardPort>(text, mcx314::card_map()));
     MOTIONRACK_CHECK(port->check_answers());
     return keep(std::make_unique<OpenChip>(std::move(port)));
 }
