@@ -11,7 +11,7 @@ namespace {
 
 constexpr Duration live_piece = milliseconds(1);         // virtual time between two looks at the card
 constexpr Duration max_live_lag = milliseconds(50);      // virtual time does not catch up beyond this
-constexpr Duration registers_every = milliseconds(500);  // period of reading all registers
+constexpr Duration registers_every = milliseconds(500);  // period of reading the registers
 constexpr Duration max_stop_wait = milliseconds(100);    // limit for a function that waits for an axis to stop
 constexpr int min_stop_waits = 10;                       // minimum looks within it, for a busy computer
 constexpr int max_live_looks = 100;
@@ -86,8 +86,21 @@ void LiveCard::poll() {
     registers_ = {std::move(*view), host_.now()};
 }
 
+bool LiveCard::is_look_due() const {
+    return !stop_requested() && now() - polled_ >= registers_every;
+}
+
 void LiveCard::look_now_and_then() {
-    if (!stop_requested() && now() - polled_ >= registers_every) poll();
+    if (is_look_due()) poll();
+}
+
+void LiveCard::look_beside_function() {
+    if (plugin_.view_again == nullptr) return look_now_and_then();
+    if (!is_look_due()) return;
+    polled_ = now();
+    rack::RegisterView view = registers_.view;
+    plugin_.view_again(bus(), view);
+    if (!lost_) registers_ = {std::move(view), host_.now()};
 }
 
 // ---- waits
@@ -120,7 +133,7 @@ void LiveCard::keep_up() {
     if (behind < live_piece) return;
     passed_ = behind > max_live_lag ? now() : passed_ + live_piece;
     host_.pass(live_piece);
-    if (card_.registers != nullptr) look_now_and_then();
+    look_beside_function();
 }
 
 void LiveCard::heed_stop() {

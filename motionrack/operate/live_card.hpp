@@ -3,7 +3,8 @@
 //   Service ──► library ──► LiveCard ──► live::LivePort ──► card      the card runs on the computer's time
 //                              │ waits: 1 ms of virtual time between two looks, so that commands, leases and the
 //                              │ status continue
-//                              └ after each call and twice a second: all registers, for the card's page
+//                              └ after each call and twice a second: all registers, for the card's page; while a
+//                                function waits, those that do not disturb it
 //
 // A stop is written at the next look; where a failure of any thread ends the program, at once: see LastStop. An access
 // that the computer refuses ends the service. Reads return 0 then, so that functions waiting for an axis end; their
@@ -73,8 +74,7 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     // ---- interface for the service
     /// Reads all registers now; writes the commands that reading takes, which move nothing.
     void poll();
-    /// Calls poll() if the last poll was half a second ago. A card with byte ports is not read while a function waits:
-    /// a handshake is not interrupted.
+    /// Calls poll() if the card was last read half a second ago.
     void look_now_and_then();
     const LiveRegisters& registers() const { return registers_; }
     const LivePlace& place() const { return place_; }
@@ -91,6 +91,9 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     rack::CardBus bus() { return {this, this, this, select_}; }
     Result<void> open_port();
     void keep_up();
+    /// As look_now_and_then(), while a function waits: reads what does not disturb it.
+    void look_beside_function();
+    bool is_look_due() const;
     void heed_stop();
     bool stands_after_stop(FunctionLibrary& library);
 

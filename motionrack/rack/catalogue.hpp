@@ -172,6 +172,9 @@ struct CardPlugin {
                                   std::span<const std::unique_ptr<Card>> before);
     /// Reads the registers of a virtual or real card; nullptr if not supported. Errors: machine if no card answers.
     Result<RegisterView> (*view)(const CardBus& bus, bool clearing) = nullptr;
+    /// Reads again, into a view, what does not disturb a function of `library` that waits; nullptr: `view` itself does
+    /// not.
+    void (*view_again)(const CardBus& bus, RegisterView& view) = nullptr;
     /// Function library of a virtual or real card; nullptr: no library for manual calls.
     std::unique_ptr<FunctionLibrary> (*library)(const CardBus& bus) = nullptr;
     /// Why a real card has no live port, a sentence; empty: it has one, with `view` and `library`. Nothing is written

@@ -348,6 +348,9 @@ std::unique_ptr<FunctionLibrary> databoard4002_library(const CardBus& bus) {
 Result<RegisterView> databoard4002_view(const CardBus& bus, bool) {
     return view_databoard4002(*bus.bytes, *bus.host, bus.select);
 }
+void databoard4002_view_again(const CardBus& bus, RegisterView& view) {
+    view_status_databoard4002(*bus.bytes, *bus.host, bus.select, view);
+}
 
 constexpr std::array<CardFault, 5> databoard4002_faults = {{
     {"watchdog.hang", 0, 1, "", "1: the firmware hangs until the watchdog restarts it"},
@@ -381,6 +384,7 @@ constinit const CardPlugin databoard4002_plugin = {
     .map = db::card_map,
     .make = make_databoard4002,
     .view = databoard4002_view,
+    .view_again = databoard4002_view_again,
     .library = databoard4002_library,
     .faults = databoard4002_faults};
 

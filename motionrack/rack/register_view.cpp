@@ -77,6 +77,13 @@ Result<RegisterView> view_databoard4002(BytePort& port, Interrupt& host, std::ui
     return view;
 }
 
+void view_status_databoard4002(BytePort& port, Interrupt& host, std::uint8_t select, RegisterView& view) {
+    databoard4002::DriverSettings settings;
+    settings.select = select;
+    for (RegisterSnapshot& seen : view.registers)
+        if (seen.reg->name == "STAT") seen.word = databoard4002::Driver(port, host, settings).status().word;
+}
+
 std::string view_text(const RegisterView& view, bool all) {
     std::string out;
     for (const RegisterSnapshot& seen : view.registers) {

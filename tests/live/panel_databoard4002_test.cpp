@@ -41,6 +41,16 @@ class PanelOnADataBoard : public PanelOnACard {
         good("go", json::object(), "Given.");
         good("rate", json::object(), std::to_string(thousand_hz) + " negative backwards, 0 at standstill");
     }
+    /// 100 s; its answer is served->answer().
+    void begin_long_move() const {
+        const json arguments = {{"counts", 100'000}, {"milliseconds", 60'000}};
+        ASSERT_TRUE(served->send("POST", "call",
+                                 json{{"card", "bench"}, {"function", "move_to"}, {"arguments", arguments}}.dump()));
+    }
+    static void until_it_waits(ServedLink& link) {
+        until("it waits",
+              [&] { return link.get("events?limit=20").dump().find("call move_to: begun") != std::string::npos; });
+    }
     void expect_standing_after_another_service() const {
         begin();
         end_service();
@@ -70,15 +80,31 @@ TEST_F(PanelOnADataBoard, CallsTheFunctionsOfItsLibrary) {
     EXPECT_TRUE(alarm(*served).is_null());
 }
 
+TEST_F(PanelOnADataBoard, ShowsItsStatusAnewWhileAFunctionWaits) {
+    begin();
+    begin_long_move();
+    ServedLink other(served->port());
+    until_it_waits(other);
+    const json before = other.get("card?name=bench");
+    const auto read_at = [](const json& shown) { return shown.value("at", 0.0); };
+    json shown;
+    until("STAT is read twice more", [&] {
+        shown = other.get("card?name=bench");
+        return read_at(shown) > read_at(before) + 0.9;
+    });
+    EXPECT_EQ(shown["registers"][0]["name"], "STAT") << shown;
+    EXPECT_EQ(shown["values"], before["values"]) << "a command would disturb the function";
+    EXPECT_TRUE(other.post("stop").contains("done"));
+    EXPECT_THAT(served->answer()["error"]["message"].get<std::string>(), HasSubstr("Stopped on request"));
+    until_stopped(other);
+    EXPECT_TRUE(alarm(other).is_null());
+}
+
 TEST_F(PanelOnADataBoard, StopsDuringAMoveThatAFunctionWaitsFor) {
     begin();
-    ASSERT_TRUE(served->send(
-        "POST", "call",
-        json{{"card", "bench"}, {"function", "move_to"}, {"arguments", {{"counts", 100'000}, {"milliseconds", 60'000}}}}
-            .dump()));
+    begin_long_move();
     ServedLink other(served->port());
-    until("it waits",
-          [&] { return other.get("events?limit=20").dump().find("call move_to: begun") != std::string::npos; });
+    until_it_waits(other);
     EXPECT_TRUE(other.post("stop").contains("done"));
     EXPECT_THAT(served->answer()["error"]["message"].get<std::string>(), HasSubstr("Stopped on request"));
     until_stopped(other);
