@@ -23,6 +23,7 @@ from python_reference import write_python_reference
 from site_check import problems_of
 from site_nav import navigation
 from site_pages import Pages
+from site_search import mended_search
 
 HERE = Path(__file__).resolve().parent
 NOT_SERVED = ("404.html", "sitemap.xml", "sitemap.xml.gz", "assets/javascripts/lunr")
@@ -142,6 +143,15 @@ def shorten_search(html: Path) -> None:
     path.write_text(json.dumps(index, ensure_ascii=False, separators=(",", ":")))
 
 
+def mend_search(html: Path) -> None:
+    """The search also finds words at their first letter."""
+    scripts = list((html / "assets/javascripts/workers").glob("search.*.js"))
+    if not scripts:
+        sys.exit("The site was not built: the theme has no script of its search in assets/javascripts/workers.")
+    for script in scripts:
+        script.write_text(mended_search(script.read_text()))
+
+
 def finish(html: Path) -> None:
     for name in NOT_SERVED:
         path = html / name
@@ -156,6 +166,7 @@ def finish(html: Path) -> None:
     move_scripts_out(html)
     move_images_out(html)
     shorten_search(html)
+    mend_search(html)
 
 
 def main() -> None:

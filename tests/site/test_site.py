@@ -16,6 +16,7 @@ from python_reference import write_python_reference  # noqa: E402
 from site_check import problems_of  # noqa: E402
 from site_nav import navigation  # noqa: E402
 from site_pages import Pages  # noqa: E402
+from site_search import mended_search  # noqa: E402
 
 HEADERS = {"motionrack/sim/kernel.hpp": "reference/headers/sim.md#kernelhpp"}
 
@@ -99,6 +100,22 @@ class Reference(unittest.TestCase):
         self.assertIn("## Rack", text)
         self.assertIn("### Rack.run", text)
         self.assertNotIn(":meth:", text)
+
+
+class Search(unittest.TestCase):
+    SCRIPT = (
+        't.TokenSet.prototype.toString=function(){if(this._str)return this._str;for(var e=this.final?"1":"0",'
+        "r=Object.keys(this.edges).sort(),n=r.length,i=0;i<n;i++){var s=r[i],o=this.edges[s];e=e+s+o.id}return e},"
+        "t.TokenSet.prototype.intersect=function(e){}"
+    )
+
+    def test_the_numbers_of_nodes_end_with_a_comma(self) -> None:
+        wanted = self.SCRIPT.replace("e=e+s+o.id}", 'e=e+s+o.id+","}')
+        self.assertEqual(mended_search(self.SCRIPT), wanted)
+
+    def test_a_script_of_another_theme_is_refused(self) -> None:
+        for other in ("", self.SCRIPT + self.SCRIPT):
+            self.assertRaises(ValueError, mended_search, other)
 
 
 class Check(unittest.TestCase):
