@@ -1,10 +1,16 @@
-// Declaration of a card's state machines.
+// Declaration of a card's state machines, and the tables by which the code runs them.
+//
+//   map:    TransitionInfo {from, to, when}                 what documents, inspectors and pages show
+//   model:  StateRow {from, on, to, guard, action}          what step() executes
+//   static_assert(declared<rows_flaw(machine, rows)>());    both have the same ways from state to state
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <motionrack/base/declaration.hpp>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 namespace motionrack {
 
@@ -73,6 +79,79 @@ constexpr DeclarationError machines_flaw(std::span<const MachineInfo> machines) 
     for (const MachineInfo& machine : machines)
         if (const DeclarationError flaw = machine_flaw(machine); !flaw.empty()) return flaw;
     return {};
+}
+
+/// The machine of that name; an unknown name does not compile.
+consteval const MachineInfo& machine_named(std::span<const MachineInfo> machines, std::string_view name) {
+    for (const MachineInfo& each : machines)
+        if (each.name == name) return each;
+    throw "unknown state machine name";
+}
+
+// ---- tables that run
+
+/// A row of a table that runs: in the state `from` the event `on` leads to `to` if the guard holds. The values of
+/// `State` are the indices of the declared states; `Data` is what comes with an event.
+template <class Owner, class State, class Event, class Data>
+struct StateRow {
+    State from;
+    Event on;
+    State to;
+    bool (*guard)(const Owner&, Data) = nullptr;  ///< nullptr: always
+    void (*action)(Owner&, Data) = nullptr;       ///< runs after the state was stored; nullptr: none
+};
+
+/// Executes the first row for the event in the state `from` whose guard holds: stores its state by `put`, then runs
+/// its action. Returns false if there is no such row: the event has no effect.
+template <class Owner, class State, class Event, class Data, std::size_t count, class Put>
+bool step(const StateRow<Owner, State, Event, Data> (&table)[count], State from, std::type_identity_t<Event> event,
+          std::type_identity_t<Owner>& owner, std::type_identity_t<Data> data, const Put& put) {
+    for (const StateRow<Owner, State, Event, Data>& row : table) {
+        if (row.from != from || row.on != event || (row.guard != nullptr && !row.guard(owner, data))) continue;
+        put(row.to);
+        if (row.action != nullptr) row.action(owner, data);
+        return true;
+    }
+    return false;
+}
+
+/// The same with the stored state itself.
+template <class Owner, class State, class Event, class Data, std::size_t count>
+bool step(const StateRow<Owner, State, Event, Data> (&table)[count], State& state, std::type_identity_t<Event> event,
+          std::type_identity_t<Owner>& owner, std::type_identity_t<Data> data) {
+    return step(table, State{state}, event, owner, data, [&state](State to) { state = to; });
+}
+
+/// Checks that the declared transitions are those that the code takes: taken(from, to), indices of different states.
+template <class Taken>
+constexpr DeclarationError transitions_flaw(const MachineInfo& machine, const Taken& taken) {
+    const auto states = machine.states;
+    for (std::size_t from = 0; from < states.size(); ++from)
+        for (std::size_t to = 0; to < states.size(); ++to) {
+            bool is_declared = false;
+            for (const TransitionInfo& t : machine.transitions)
+                is_declared = is_declared || (t.from == states[from].name && t.to == states[to].name);
+            if (from == to || is_declared == taken(from, to)) continue;
+            return {machine.name,
+                    is_declared ? ": no row leads from " : ": a row, but no declared transition, leads from ",
+                    states[from].name, " to ", states[to].name};
+        }
+    return {};
+}
+
+/// Checks that a table that runs has the declared states, and takes all declared transitions and no other.
+template <class Owner, class State, class Event, class Data, std::size_t count>
+constexpr DeclarationError rows_flaw(const MachineInfo& machine,
+                                     const StateRow<Owner, State, Event, Data> (&table)[count]) {
+    for (const StateRow<Owner, State, Event, Data>& row : table)
+        if (static_cast<std::size_t>(row.from) >= machine.states.size() ||
+            static_cast<std::size_t>(row.to) >= machine.states.size())
+            return {machine.name, ": a row has a state that is not declared"};
+    return transitions_flaw(machine, [&table](std::size_t from, std::size_t to) {
+        for (const StateRow<Owner, State, Event, Data>& row : table)
+            if (static_cast<std::size_t>(row.from) == from && static_cast<std::size_t>(row.to) == to) return true;
+        return false;
+    });
 }
 
 }  // namespace motionrack

@@ -7,14 +7,9 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-consteval const MachineInfo& machine(std::string_view name) {
-    for (const MachineInfo& each : map::machines)
-        if (each.name == name) return each;
-    throw "unknown state machine name";
-}
 /// Index of a state in its machine's table; an unknown name does not compile.
 consteval int place(std::string_view machine_name, std::string_view name) {
-    const int index = state_index(machine(machine_name), name);
+    const int index = state_index(machine_named(map::machines, machine_name), name);
     if (index < 0) throw "the state machine has no state of this name";
     return index;
 }
