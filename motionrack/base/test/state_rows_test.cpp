@@ -88,11 +88,17 @@ TEST(StateRows, AreComparedWithTheDeclaredTransitions) {
     EXPECT_EQ(flaw_of(door_transitions), "");
     EXPECT_EQ(flaw_of(std::span(door_transitions).first(3)),
               "door: a row, but no declared transition, leads from open to closed");
-    const TransitionInfo more[] = {door_transitions[0], door_transitions[1], door_transitions[2], door_transitions[3],
+    const TransitionInfo more[] = {door_transitions[0],
+                                   door_transitions[1],
+                                   door_transitions[2],
+                                   door_transitions[3],
                                    {"open", "locked", "magic"}};
     EXPECT_EQ(flaw_of(more), "door: no row leads from open to locked");
-    const TransitionInfo staying[] = {door_transitions[0], door_transitions[1], door_transitions[2],
-                                      door_transitions[3], {"open", "open", "a draught"}};
+    const TransitionInfo staying[] = {door_transitions[0],
+                                      door_transitions[1],
+                                      door_transitions[2],
+                                      door_transitions[3],
+                                      {"open", "open", "a draught"}};
     EXPECT_EQ(flaw_of(staying), "") << "a state that stays is not a way";
     EXPECT_EQ(std::string(rows_flaw({"door", "a door", std::span(door_states).first(2), {}}, door_rows).text()),
               "door: a row has a state that is not declared");

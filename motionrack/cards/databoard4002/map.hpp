@@ -51,33 +51,35 @@ namespace map {
 inline constexpr StateInfo host_states[] = {
     {"ready", "Ready is 1: an access is taken"},
     {"busy", "Ready is 0: the firmware works on the access; another one is lost"},
-    {"hung", "the firmware hangs (a fault); an access clears Ready permanently"},
 };
 inline constexpr TransitionInfo host_transitions[] = {
     {"ready", "busy", "access to DATA, C2 or C4"},
     {"busy", "ready", "the access is done"},
-    {"ready", "hung", "fault watchdog.hang"},
-    {"busy", "hung", "fault watchdog.hang"},
-    {"hung", "ready", "the watchdog after 1 s, C3, or INP 7"},
+};
+inline constexpr StateInfo firmware_states[] = {
+    {"running", "a pass does the access, looks at stops and position, and sets the speed"},
+    {"hung", "no passes (a fault): an access clears Ready, and it stays 0"},
+};
+inline constexpr TransitionInfo firmware_transitions[] = {
+    {"running", "hung", "fault watchdog.hang"},
+    {"hung", "running", "the watchdog after 1 s, C3, INP 7, or the end of the fault"},
 };
 inline constexpr StateInfo move_states[] = {
     {"standing", "0 V, no pulses"},
-    {"moving", "the output follows Rate and, in slope mode, the table"},
-    {"held at a stop", "an end stop in this direction is active: 0 V in hardware, the move is still on"},
-    {"locked", "standing, and watching the deviation"},
-    {"going back", "lock has begun a move to the requested position"},
+    {"moving", "the output follows Rate and, in slope mode, the table; 0 V at an end stop in this direction"},
+    {"locked", "standing, and watching the deviation once a G has been"},
+    {"going back", "moving to the requested position with lock on: lock began it, or L came during the move"},
 };
 inline constexpr TransitionInfo move_transitions[] = {
     {"standing", "moving", "G"},
+    {"standing", "locked", "L"},
     {"moving", "standing", "position reached or passed, Q, EMS"},
-    {"moving", "held at a stop", "ESR while going +, ESL while going -"},
-    {"held at a stop", "moving", "the stop is released, or G in the other direction"},
-    {"held at a stop", "standing", "Q, EMS"},
-    {"standing", "locked", "L, once a G has been"},
+    {"moving", "going back", "L"},
     {"locked", "standing", "M, Q, EMS"},
     {"locked", "moving", "G"},
     {"locked", "going back", "the deviation is greater than D"},
     {"going back", "locked", "position reached or passed"},
+    {"going back", "moving", "M, G"},
     {"going back", "standing", "Q, EMS"},
 };
 inline constexpr StateInfo collector_states[] = {
@@ -90,13 +92,15 @@ inline constexpr TransitionInfo collector_transitions[] = {
     {"idle", "either", "D, P, R"},
     {"idle", "collecting", "N, S"},
     {"idle", "answering", "V"},
-    {"either", "collecting", "OUT DATA"},
+    {"either", "collecting", "OUT DATA, C4"},
     {"either", "answering", "INP DATA"},
+    {"either", "idle", "another command"},
     {"collecting", "idle", "the last byte, or another command"},
     {"answering", "idle", "the last byte, C4, or another command"},
 };
 inline constexpr MachineInfo machines[] = {
     {"host", "the handshake; a reset leads to ready", host_states, host_transitions},
+    {"firmware", "a reset leads to running", firmware_states, firmware_transitions},
     {"move", "command to the motor; a reset leads to standing", move_states, move_transitions},
     {"collector", "arguments and answers; a reset leads to idle", collector_states, collector_transitions},
 };

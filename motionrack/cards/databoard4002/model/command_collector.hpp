@@ -3,6 +3,8 @@
 //   idle ──D, P, R──► either ──OUT DATA──► collecting ──last byte──► idle
 //     │                 └──────INP DATA──► answering ──last byte──► idle
 //     └──N, S──► collecting, V ──► answering
+//
+// CommandCollector::Steps in the .cpp file is the table of these states.
 #pragma once
 
 #include <cstdint>
@@ -33,9 +35,10 @@ class CommandCollector {
     void enable_events(std::uint8_t value);
 
   private:
-    void open(std::uint8_t code, Collecting collecting);
+    struct Steps;
+
     /// Begins the answer `value` of that many bytes; the first byte enters the latch at once.
-    void open_answer(std::uint8_t code, Collecting collecting, std::int64_t value, int bytes);
+    void open_answer(std::int64_t value, int bytes);
     void arguments_complete(std::uint8_t code);
     void report_during_move(std::uint8_t code);
 

@@ -1,7 +1,51 @@
-// Taking and executing an access; STAT.
+// Taking and executing an access by the table of the handshake; STAT.
 #include <motionrack/cards/databoard4002/model/host_ports.hpp>
 
 namespace motionrack::databoard4002 {
+
+struct HostPorts::Steps {
+    enum class Event : std::uint8_t { access, done };
+    struct Access {
+        Work kind = Work::none;
+        std::uint8_t port = 0, value = 0;
+        Instant now{};
+    };
+
+    static void take(HostPorts& ports, const Access& access) {
+        HostPortsState& s = ports.state_;
+        s.access = access.kind;
+        s.access_value = access.value;
+        s.access_due = ports.passes_.first_from(access.now + ports.byte_time_);
+        ports.passes_.request_at(s.access_due);
+        ports.update_interrupt();
+    }
+    static void lose(HostPorts& ports, const Access& access) {
+        ports.conditions_.report(CardCondition::access_lost, access.port,
+                                 access.kind == Work::in_data ? -1 : access.value);
+    }
+    static void execute(HostPorts& ports, const Access& access) {
+        HostPortsState& s = ports.state_;
+        const Work kind = s.access;
+        s.access = Work::none;
+        s.access_due = never;
+        if (kind == Work::in_data) ports.commands_.next_answer();
+        if (kind == Work::out_data) ports.commands_.take_argument(s.access_value);
+        if (kind == Work::command) ports.commands_.take_command(s.access_value, access.now);
+        if (kind == Work::enables) ports.commands_.enable_events(s.access_value);
+    }
+
+    static constexpr StateRow<HostPorts, HostState, Event, const Access&> rows[] = {
+        {HostState::ready, Event::access, HostState::busy, nullptr, take},
+        {HostState::busy, Event::access, HostState::busy, nullptr, lose},
+        {HostState::busy, Event::done, HostState::ready, nullptr, execute},
+    };
+    static_assert(declared<rows_flaw(machine_named(map::machines, "host"), rows)>());
+
+    static void run(HostPorts& ports, Event event, const Access& access) {
+        step(rows, ports.host_state(), event, ports, access,
+             [&ports](HostState to) { ports.state_.ready = to == HostState::ready; });
+    }
+};
 
 HostPorts::HostPorts(HostPortsState& state, Duration byte_time, const ConditionReporter& conditions,
                      PassSchedule& passes, const Pins& pins, EventRegister& events, CommandCollector& commands)
@@ -14,29 +58,13 @@ HostPorts::HostPorts(HostPortsState& state, Duration byte_time, const ConditionR
       commands_(commands) {}
 
 bool HostPorts::access(Work kind, std::uint8_t port, std::uint8_t value, Instant now) {
-    if (!state_.ready) {
-        conditions_.report(CardCondition::access_lost, port, kind == Work::in_data ? -1 : value);
-        return false;
-    }
-    state_.ready = 0;
-    state_.access = kind;
-    state_.access_value = value;
-    state_.access_due = passes_.first_from(now + byte_time_);
-    passes_.request_at(state_.access_due);
-    update_interrupt();
-    return true;
+    const bool taken = host_state() == HostState::ready;
+    Steps::run(*this, Steps::Event::access, {kind, port, value, now});
+    return taken;
 }
 
 void HostPorts::work(Instant now) {
-    if (state_.access_due > now) return;
-    const Work kind = state_.access;
-    state_.access = Work::none;
-    state_.access_due = never;
-    state_.ready = 1;
-    if (kind == Work::in_data) commands_.next_answer();
-    if (kind == Work::out_data) commands_.take_argument(state_.access_value);
-    if (kind == Work::command) commands_.take_command(state_.access_value, now);
-    if (kind == Work::enables) commands_.enable_events(state_.access_value);
+    if (state_.access_due <= now) Steps::run(*this, Steps::Event::done, {.now = now});
 }
 
 void HostPorts::request_pass() {

@@ -1,6 +1,8 @@
 // The ports towards the host: the handshake by Ready, the access that the firmware has not processed yet, STAT.
 //
 //   access while Ready ──► Ready drops ──byte time──► the pass from there on executes it ──► Ready
+//
+// HostPorts::Steps in the .cpp file is the table of this handshake.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +33,10 @@ class HostPorts {
     void update_interrupt() { events_.update_interrupt(state_.ready != 0); }
 
   private:
+    struct Steps;
+
     std::uint8_t status() const;
+    HostState host_state() const { return state_.ready ? HostState::ready : HostState::busy; }
 
     HostPortsState& state_;
     Duration byte_time_;

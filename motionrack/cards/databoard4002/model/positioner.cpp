@@ -1,4 +1,5 @@
-// Beginning, rate and end of a move; lock; the next position at which a pass has an effect.
+// Beginning, rate and end of a move, and lock, by the table of its states; the next position at which a pass has an
+// effect.
 #include <algorithm>
 #include <cstdlib>
 #include <motionrack/cards/databoard4002/model/positioner.hpp>
@@ -11,6 +12,54 @@ namespace {
 constexpr std::int64_t half_range = std::int64_t{1} << 23;
 
 }  // namespace
+
+struct Positioner::Steps {
+    enum class Event : std::uint8_t { go, lock, manual, quit, emergency, pass };
+
+    static bool arrived(const Positioner& p, Instant now) {
+        const TargetMove& move = p.state_.move;
+        return signed24(move.target - p.counter_.value(now)) * move.direction <= 0;
+    }
+    static bool deviates(const Positioner& p, Instant now) {
+        return p.state_.went != 0 && std::abs(p.deviation(now)) > p.state_.window;
+    }
+    static void begin(Positioner& p, Instant now) { p.begin_move(p.state_.requested, now); }
+    static void raise_position(Positioner& p, Instant) { p.events_.raise(event::POSITION); }
+    static void report_aborted(Positioner& p, Instant now) {
+        p.conditions_.report(CardCondition::move_aborted, signed24(p.counter_.value(now)), p.state_.move.target);
+    }
+
+    using enum MoveState;
+    static constexpr StateRow<Positioner, MoveState, Event, Instant> rows[] = {
+        {standing, Event::go, moving, nullptr, begin},
+        {standing, Event::lock, locked},
+        {moving, Event::go, moving, nullptr, begin},
+        {moving, Event::lock, going_back},
+        {moving, Event::quit, standing},
+        {moving, Event::emergency, standing, nullptr, report_aborted},
+        {moving, Event::pass, standing, arrived, raise_position},
+        {locked, Event::go, moving, nullptr, begin},
+        {locked, Event::manual, standing},
+        {locked, Event::quit, standing},
+        {locked, Event::emergency, standing},
+        {locked, Event::pass, going_back, deviates, begin},
+        {going_back, Event::go, moving, nullptr, begin},
+        {going_back, Event::manual, moving},
+        {going_back, Event::quit, standing},
+        {going_back, Event::emergency, standing, nullptr, report_aborted},
+        {going_back, Event::pass, locked, arrived, raise_position},
+    };
+    static_assert(declared<rows_flaw(machine_named(map::machines, "move"), rows)>());
+
+    static void run(Positioner& p, Event event, Instant now) {
+        PositionerState& s = p.state_;
+        const MoveState from = s.move.on ? (s.lock ? going_back : moving) : (s.lock ? locked : standing);
+        step(rows, from, event, p, now, [&s](MoveState to) {
+            s.move.on = to == moving || to == going_back;
+            s.lock = to == locked || to == going_back;
+        });
+    }
+};
 
 Positioner::Positioner(PositionerState& state, const ConditionReporter& conditions, PassSchedule& passes,
                        const Pins& pins, PositionCounter& counter, EventRegister& events)
@@ -28,10 +77,9 @@ void Positioner::go(Instant now) {
     if (s.move.on) conditions_.report(CardCondition::during_move, 'G');
     if (s.sloped) report_flaw();
     events_.clear(event::POSITION);
-    s.lock = 0;
     s.went = 1;
     s.requested = target;
-    begin_move(target, now);
+    Steps::run(*this, Steps::Event::go, now);
 }
 
 void Positioner::report_flaw() {
@@ -47,7 +95,6 @@ void Positioner::begin_move(std::int64_t target, Instant now) {
     move.target = target;
     move.start = u;
     move.direction = target >= signed24(u) ? 1 : -1;
-    move.on = 1;
     move.sloped = state_.sloped;
     if (state_.sloped) move.table = state_.table;
 }
@@ -62,8 +109,17 @@ void Positioner::zero(Instant now) {
     counter_.zero(now);
 }
 
+void Positioner::lock() {
+    Steps::run(*this, Steps::Event::lock, {});
+}
+
+void Positioner::select_manual() {
+    state_.sloped = 0;
+    Steps::run(*this, Steps::Event::manual, {});
+}
+
 void Positioner::quit(bool zeroes) {
-    state_.move.on = state_.lock = 0;
+    Steps::run(*this, Steps::Event::quit, {});
     if (zeroes) state_.target = state_.number = 0;
 }
 
@@ -80,22 +136,11 @@ void Positioner::set_target(std::int64_t position) {
 // ---- a pass
 
 void Positioner::abort(Instant now) {
-    if (state_.move.on)
-        conditions_.report(CardCondition::move_aborted, signed24(counter_.value(now)), state_.move.target);
-    state_.move.on = 0;
-    state_.lock = 0;
+    Steps::run(*this, Steps::Event::emergency, now);
 }
 
 void Positioner::check_position(Instant now) {
-    PositionerState& s = state_;
-    const std::int64_t u = counter_.value(now);
-    if (s.move.on) {
-        if (signed24(s.move.target - u) * s.move.direction > 0) return;
-        s.move.on = 0;
-        events_.raise(event::POSITION);
-    } else if (s.lock && s.went && std::abs(signed24(u - s.requested)) > s.window) {
-        begin_move(s.requested, now);
-    }
+    Steps::run(*this, Steps::Event::pass, now);
 }
 
 int Positioner::output_rate(Instant now) const {

@@ -3,6 +3,8 @@
 //   G ──► move ──► rate by Rate and slope table ──► position reached
 //          ▲                                             │
 //          └────── lock: deviation > window ◄────────────┘
+//
+// Positioner::Steps in the .cpp file is the table of the states of a move.
 #pragma once
 
 #include <cstdint>
@@ -37,9 +39,9 @@ class Positioner {
     /// A
     void home(Instant now);
     /// L
-    void lock() { state_.lock = 1; }
+    void lock();
     /// M
-    void select_manual() { state_.sloped = state_.lock = 0; }
+    void select_manual();
     /// O
     void select_slope() {
         state_.sloped = 1;
@@ -67,6 +69,8 @@ class Positioner {
     void aim(Instant now);
 
   private:
+    struct Steps;
+
     void begin_move(std::int64_t target, Instant now);
     void report_flaw();
 

@@ -20,6 +20,12 @@ inline constexpr Duration reset_pulse = microseconds(10);
 /// An access that the firmware has not processed yet.
 enum class Work : std::uint8_t { none, in_data, out_data, command, enables };
 
+// ---- states of the map's machines, in its order
+
+enum class HostState : std::uint8_t { ready, busy };
+enum class FirmwareState : std::uint8_t { running, hung };
+/// Two bits of PositionerState: a move is on, lock is on.
+enum class MoveState : std::uint8_t { standing, moving, locked, going_back };
 /// Meaning of the next access to DATA.
 enum class Collecting : std::uint8_t { idle, either, collecting, answering };
 
@@ -105,7 +111,7 @@ struct State {
     Instant reset_pulse_end = never;
     Instant fout_at = never;  ///< the next edge of the followed wire fout
     std::uint8_t broken = 0;  ///< STAT bits of inputs whose wire is broken
-    std::uint8_t hung = 0;
+    FirmwareState hung = FirmwareState::running;
     std::uint8_t fout_wanted = 0;
     std::uint8_t begun = 0;
     std::uint32_t reserved = 0;

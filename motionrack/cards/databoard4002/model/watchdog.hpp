@@ -9,26 +9,37 @@ namespace motionrack::databoard4002 {
 class Watchdog {
   public:
     /// The references are parts of the card's state.
-    Watchdog(Instant& due, std::uint8_t& hung) : due_(due), hung_(hung) {}
+    Watchdog(Instant& due, FirmwareState& firmware) : due_(due), firmware_(firmware) {}
 
-    bool hung() const { return hung_ != 0; }
+    bool hung() const { return firmware_ == FirmwareState::hung; }
     /// Instant of the reset; never while the firmware runs.
     Instant due() const { return due_; }
 
     /// The firmware hangs from now on. `last_pass`: its last pass.
-    void hang(Instant last_pass) {
-        if (!hung()) due_ = last_pass + watchdog_time;
-        hung_ = 1;
-    }
+    void hang(Instant last_pass) { Steps::run(*this, Event::hang, last_pass); }
     /// The firmware runs.
-    void restart() {
-        hung_ = 0;
-        due_ = never;
-    }
+    void restart() { Steps::run(*this, Event::restart, never); }
 
   private:
+    enum class Event : std::uint8_t { hang, restart };
+
+    struct Steps {
+        static void wait(Watchdog& watchdog, Instant last_pass) { watchdog.due_ = last_pass + watchdog_time; }
+        static void rest(Watchdog& watchdog, Instant) { watchdog.due_ = never; }
+
+        static constexpr StateRow<Watchdog, FirmwareState, Event, Instant> rows[] = {
+            {FirmwareState::running, Event::hang, FirmwareState::hung, nullptr, wait},
+            {FirmwareState::hung, Event::restart, FirmwareState::running, nullptr, rest},
+        };
+        static_assert(declared<rows_flaw(machine_named(map::machines, "firmware"), rows)>());
+
+        static void run(Watchdog& watchdog, Event event, Instant last_pass) {
+            step(rows, watchdog.firmware_, event, watchdog, last_pass);
+        }
+    };
+
     Instant& due_;
-    std::uint8_t& hung_;
+    FirmwareState& firmware_;
 };
 
 }  // namespace motionrack::databoard4002
