@@ -109,11 +109,12 @@ inline constexpr StateInfo states[] = {
     {"S11", "all scales are read"},
     {"S12", "emits the pulse frame_done"},
 };
+/// Conditions of the only state with two exits.
+inline constexpr std::string_view words_left = "scales are left", all_read = "all are read";
 inline constexpr TransitionInfo transitions[] = {
-    {"S0", "S1", "pulse or edge"}, {"S1", "S2", "after T1"},    {"S2", "S3", "after T2"},
-    {"S3", "S4", "after T3"},      {"S4", "S5", "next clock"},  {"S5", "S6", "scales are left"},
-    {"S5", "S11", "all are read"}, {"S6", "S7", "next clock"},  {"S7", "S8", "after T1"},
-    {"S8", "S9", "after T2"},      {"S9", "S10", "after T3"},   {"S10", "S5", "next clock"},
+    {"S0", "S1", "pulse or edge"}, {"S1", "S2", "after T1"},    {"S2", "S3", "after T2"},  {"S3", "S4", "after T3"},
+    {"S4", "S5", "next clock"},    {"S5", "S6", words_left},    {"S5", "S11", all_read},   {"S6", "S7", "next clock"},
+    {"S7", "S8", "after T1"},      {"S8", "S9", "after T2"},    {"S9", "S10", "after T3"}, {"S10", "S5", "next clock"},
     {"S11", "S12", "next clock"},  {"S12", "S0", "next clock"},
 };
 inline constexpr MachineInfo machines[] = {

@@ -31,20 +31,24 @@ constexpr Duration time_in(const BusTiming& timing, State state) {
     }
 }
 
-/// Next state after `state` with `left` words unread, by the state machine of the map.
-constexpr State after(State state, bool words_left) {
-    switch (state) {
-        case State::S4:
-            return State::S5;
-        case State::S5:
-            return words_left ? State::S6 : State::S11;
-        case State::S10:
-            return State::S5;
-        case State::S12:
-            return State::S0;
-        default:
-            return static_cast<State>(static_cast<int>(state) + 1);
+/// The transitions of the map, by state and by whether words are left.
+struct SequenceTable {
+    State next[std::size(map::states)][2] = {};
+
+    consteval SequenceTable() {
+        const MachineInfo& machine = machine_named(map::machines, "frame");
+        for (const TransitionInfo& t : machine.transitions) {
+            const int from = state_index(machine, t.from), to = state_index(machine, t.to);
+            if (t.when != map::words_left) next[from][0] = static_cast<State>(to);
+            if (t.when != map::all_read) next[from][1] = static_cast<State>(to);
+        }
     }
+};
+inline constexpr SequenceTable sequence_table;
+
+/// Next state after `state`, by the transitions of the map.
+constexpr State after(State state, bool words_left) {
+    return sequence_table.next[static_cast<int>(state)][words_left];
 }
 
 /// Computes the state at `elapsed` >= 0 after entering S1, in a frame of `words`.

@@ -5,6 +5,25 @@
 
 namespace motionrack::grating_bus {
 
+/// What the card does as a state begins. after() gives the order of the states, LineOutputs their levels.
+struct Card::Steps {
+    static void first_word(Card& card, Instant) { card.frames_.set_word(0); }
+    static void next_word(Card& card, Instant) { card.frames_.set_word(card.frames_.word() + 1); }
+    static void ask(Card& card, Instant) { card.state_.asks = 1; }
+    static void publish(Card& card, Instant now) { card.publish(now, nullptr); }
+
+    static constexpr void (*actions[])(Card&, Instant) = {
+        first_word, nullptr,    ///< S0, S1
+        ask,        nullptr,    ///< S2, S3
+        nullptr,    nullptr,    ///< S4, S5
+        nullptr,    next_word,  ///< S6, S7
+        ask,        nullptr,    ///< S8, S9
+        nullptr,    nullptr,    ///< S10, S11
+        publish                 ///< S12
+    };
+    static_assert(std::size(actions) == std::size(map::states));
+};
+
 Instant Card::next() const {
     if (state_.off != 0) return std::min(pulses_.next(), age_.next());
     return std::min(std::min(std::min(state_.state_ends, state_.starts), std::min(pulses_.next(), pulses_.fall())),
@@ -76,7 +95,7 @@ void Card::begin(Instant now) {
     state_.starts = never;
     frames_.begin(now, pulses_.sequence());
     report_begin(now);
-    enter(State::S1, now);
+    enter(after(state_.fsm, true), now);
 }
 
 void Card::enter(State state, Instant now) {
@@ -84,23 +103,7 @@ void Card::enter(State state, Instant now) {
     state_.fsm = state;
     state_.state_ends = state == State::S0 ? never : now + time_in(settings_.timing, state);
     lines_.enter(state);
-    switch (state) {
-        case State::S0:
-            frames_.set_word(0);
-            break;
-        case State::S7:
-            frames_.set_word(frames_.word() + 1);
-            break;
-        case State::S2:
-        case State::S8:
-            state_.asks = 1;
-            break;
-        case State::S12:
-            publish(now, nullptr);
-            break;
-        default:
-            break;
-    }
+    if (const auto action = Steps::actions[static_cast<int>(state)]; action != nullptr) action(*this, now);
     if (before != state) wires_.show(state_.fsm);
 }
 
