@@ -1,4 +1,5 @@
-// Calibration of an axis: the source's commands and statuses, and the state table that connects them.
+// Calibration of an axis: the source's commands and statuses, and the state table that connects them and that the model
+// executes.
 //
 //              cNop, cRes            cResNm              cResNmSig
 //                  │                    │                    │
@@ -88,6 +89,13 @@ inline constexpr MachineInfo machines[] = {
     {"calibration", "of each axis; a reset leads to calibrated", calibration_states, calibration_transitions},
 };
 static_assert(declared<machines_flaw(machines)>());
+/// True if an event leads from one state of the calibration to the other; both are indices.
+constexpr bool calibration_leads(std::size_t from, std::size_t to) {
+    for (const CalStep& each : CalTable::steps[from])
+        if (static_cast<std::size_t>(each.next) == to) return true;
+    return false;
+}
+static_assert(declared<transitions_flaw(machine_named(machines, "calibration"), calibration_leads)>());
 
 }  // namespace map
 }  // namespace motionrack::ioflex02

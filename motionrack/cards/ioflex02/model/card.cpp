@@ -5,15 +5,6 @@
 
 namespace motionrack::ioflex02 {
 
-namespace {
-
-/// The first sample at or after `t` (t >= 0).
-std::int64_t sample_from(Instant t) {
-    return (t.count() + sample_time.count() - 1) / sample_time.count();
-}
-
-}  // namespace
-
 void begin_project(State& state, Instant at, std::int64_t done) {
     state.origin = at;
     state.cleared = 0;
@@ -23,12 +14,8 @@ void begin_project(State& state, Instant at, std::int64_t done) {
 }
 
 void catch_up(State& state, Instant now, bool access) {
-    Configuration& c = state.configuration;
-    if (c.array == ArrayState::starting && c.starts_at <= now) {
-        c.array = ArrayState::running;
-        state.reported_no_project = 0;
-        begin_project(state, c.starts_at, sample_from(c.starts_at) - 1);
-    }
+    const Configuration& c = state.configuration;
+    if (c.array == ArrayState::starting) step_array(state, ArrayEvent::time, {.now = now});
     if (c.array != ArrayState::running || !c.known) return;
     const std::int64_t last = access ? now / sample_time : sample_from(now) - 1;
     for (EncoderAxisState& axis : state.axes) advance(axis, last);

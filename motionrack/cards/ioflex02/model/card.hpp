@@ -75,7 +75,6 @@ class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
     void take_byte(std::uint8_t byte);
     void refuse(CfgError error);
     void accept();
-    void take_project();
     void preload(std::span<const std::uint8_t> image);
 
     // registers.cpp
@@ -91,8 +90,21 @@ class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
     State state_{};
 };
 
+/// CONFIGURE; END, or a flaw of the image; its last byte; a look at the time.
+enum class ArrayEvent : std::uint8_t { configure, refused, complete, time };
+struct ArrayChange {
+    Instant now{};
+    Duration configuration_time{};    ///< with complete
+    CfgError error = CfgError::none;  ///< with refused
+};
+/// Executes the array's state table; returns false if the event has no effect.
+bool step_array(State& state, ArrayEvent event, const ArrayChange& change);
 /// Starts the project at `at` with all counts and the time at 0.
 void begin_project(State& state, Instant at, std::int64_t done);
+/// The first sample at or after `t` (t >= 0).
+inline std::int64_t sample_from(Instant t) {
+    return (t.count() + sample_time.count() - 1) / sample_time.count();
+}
 /// Processes the changes up to `now`; `access`: including the sample at this very instant.
 void catch_up(State& state, Instant now, bool access);
 /// Ticks of 1.2 us since the start of the project.

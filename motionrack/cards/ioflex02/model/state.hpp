@@ -10,6 +10,7 @@
 
 namespace motionrack::ioflex02 {
 
+/// In the order of the map's states.
 enum class ArrayState : std::uint32_t { empty, loading, starting, running, failed };
 
 /// The programmable array and the image that is being received.
