@@ -1,10 +1,12 @@
-// The automatic home search of an MCX314As: consecutive drives, by the table map::home_drives.
+// The automatic home search of an MCX314As: consecutive drives (map::home_drives), by the state table Steps.
 //
 //   62h ─► step 1 ─► step 2 ────────────────► step 3 ─► step 4 ─► end
 //           (3)       (8)     (12) ─► (15)     (20)      (25)             in brackets: HMST
 //                      └─ IN1 or the limit ─┘
+#include <iterator>
 #include <motionrack/cards/mcx314/chip/chip_conditions.hpp>
 #include <motionrack/cards/mcx314/chip/home_search.hpp>
+#include <motionrack/cards/mcx314/map.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -40,16 +42,152 @@ bool home_found(State& state, int a) {
     return drive.back ? !active && home.seen : active;
 }
 
+/// The states of the map's machine "home search", in its order. From the state after a row's step on, the rows try the
+/// later steps in turn: the first one that is enabled and has something to do.
+struct ChipHomeSearch::Steps {
+    enum class State : std::uint8_t { idle, near, home, escape, again, index, offset };
+    enum class Event : std::uint8_t { start, drive_ended };
+
+    // ---- guards
+    static const Extension& ext_of(const ChipHomeSearch& s, int a) { return s.state_.extension[a]; }
+    static unsigned errors_of(const ChipHomeSearch& s, int a) { return s.state_.axis[a].finished & rr1::errors.mask; }
+    static unsigned limit_of(const ChipHomeSearch& s, int a, int step) {
+        return step_direction(ext_of(s, a), step) > 0 ? rr1::LMTP.mask : rr1::LMTM.mask;
+    }
+    static bool ended_by_limit(const ChipHomeSearch& s, int a, int step) {
+        return errors_of(s, a) == limit_of(s, a, step);
+    }
+    static bool wants_near(const ChipHomeSearch& s, int a) {
+        return step_enabled(ext_of(s, a), 1) && !home_input(s.state_, a, 1);
+    }
+    static bool wants_escape(const ChipHomeSearch& s, int a) {
+        const Extension& ext = ext_of(s, a);
+        return step_enabled(ext, 2) &&
+               (home_input(s.state_, a, 2) || limit_active(s.state_.axis[a], step_direction(ext, 2)));
+    }
+    static bool wants_home(const ChipHomeSearch& s, int a) { return step_enabled(ext_of(s, a), 2); }
+    static bool wants_index(const ChipHomeSearch& s, int a) {
+        return step_enabled(ext_of(s, a), 3) && !home_input(s.state_, a, 3);
+    }
+    /// Step 3 is enabled, but its input is active already.
+    static bool misses_index(const ChipHomeSearch& s, int a) { return step_enabled(ext_of(s, a), 3); }
+    static bool wants_offset(const ChipHomeSearch& s, int a) { return step_enabled(ext_of(s, a), 4); }
+
+    /// The search is cancelled, or the drive ended before it found what it looked for.
+    static bool failed(const ChipHomeSearch& s, int a) {
+        const Extension& ext = ext_of(s, a);
+        const map::HomeDrive& drive = map::home_drive(ext.home.hmst);
+        if (ext.home.cancelled) return true;
+        const bool tolerated = drive.step <= 2 && !drive.back && em::LIMIT.test(ext.em7);
+        if (ext.home.hmst == 3 && ended_by_limit(s, a, 1) && step_enabled(ext, 2)) return false;
+        if ((errors_of(s, a) & ~(tolerated ? limit_of(s, a, drive.step) : 0u)) != 0) return true;
+        const Axis& axis = s.state_.axis[a];
+        return drive.step == 4 ? axis.gen.n < axis.pulses : !ext.home.found;
+    }
+    static bool ran_into_limit(const ChipHomeSearch& s, int a) {
+        const Extension& ext = ext_of(s, a);
+        return !ext.home.cancelled && !em::LIMIT.test(ext.em7) && ended_by_limit(s, a, 2);
+    }
+    static bool owes_clear(const ChipHomeSearch& s, int a) { return !ext_of(s, a).home.cleared; }
+
+    // ---- actions
+    template <int hmst>
+    static void drive(ChipHomeSearch& s, int a) {
+        s.go(a, hmst);
+    }
+    template <int hmst>
+    static void look_and_drive(ChipHomeSearch& s, int a) {
+        s.state_.extension[a].home.seen = home_input(s.state_, a, 2);
+        s.go(a, hmst);
+    }
+    static void finish(ChipHomeSearch& s, int a) { s.finish(a); }
+    static void finish_with_error(ChipHomeSearch& s, int a) {
+        s.state_.extension[a].home.error = true;
+        s.finish(a);
+    }
+    static void finish_done(ChipHomeSearch& s, int a) {
+        const Extension& ext = ext_of(s, a);
+        if (!step_enabled(ext, 3)) s.ask_clear(a);
+        if (em::PCLR.test(ext.em7)) {
+            s.state_.axis[a].lp = 0;
+            s.encoders_.set_position(a, 0);
+            s.comparators_.compare(a);
+            s.encoders_.watch(a);
+        }
+        s.finish(a);
+    }
+    /// If there is a pulse, look() comes back at its end; else the search goes on at once.
+    static void clear(ChipHomeSearch& s, int a) {
+        s.state_.extension[a].home.cleared = true;
+        s.ask_clear(a);
+        if (ext_of(s, a).clear_until <= s.state_.tick) run(s, Event::drive_ended, a);
+    }
+
+    // ---- the table
+    using enum State;
+    static constexpr StateRow<ChipHomeSearch, State, Event, int> rows[] = {
+        {idle, Event::start, near, wants_near, drive<3>},
+        {idle, Event::start, escape, wants_escape, look_and_drive<12>},
+        {idle, Event::start, home, wants_home, look_and_drive<8>},
+        {idle, Event::start, index, wants_index, drive<20>},
+        {idle, Event::start, idle, misses_index, finish_with_error},
+        {idle, Event::start, offset, wants_offset, drive<25>},
+        {idle, Event::start, idle, nullptr, finish_done},
+
+        {near, Event::drive_ended, idle, failed, finish},
+        {near, Event::drive_ended, escape, wants_escape, look_and_drive<12>},
+        {near, Event::drive_ended, home, wants_home, look_and_drive<8>},
+        {near, Event::drive_ended, index, wants_index, drive<20>},
+        {near, Event::drive_ended, idle, misses_index, finish_with_error},
+        {near, Event::drive_ended, offset, wants_offset, drive<25>},
+        {near, Event::drive_ended, idle, nullptr, finish_done},
+
+        {home, Event::drive_ended, escape, ran_into_limit, look_and_drive<12>},
+        {home, Event::drive_ended, idle, failed, finish},
+        {home, Event::drive_ended, index, wants_index, drive<20>},
+        {home, Event::drive_ended, idle, misses_index, finish_with_error},
+        {home, Event::drive_ended, offset, wants_offset, drive<25>},
+        {home, Event::drive_ended, idle, nullptr, finish_done},
+
+        {escape, Event::drive_ended, idle, failed, finish},
+        {escape, Event::drive_ended, again, nullptr, drive<15>},
+
+        {again, Event::drive_ended, idle, failed, finish},
+        {again, Event::drive_ended, index, wants_index, drive<20>},
+        {again, Event::drive_ended, idle, misses_index, finish_with_error},
+        {again, Event::drive_ended, offset, wants_offset, drive<25>},
+        {again, Event::drive_ended, idle, nullptr, finish_done},
+
+        {index, Event::drive_ended, idle, failed, finish},
+        {index, Event::drive_ended, index, owes_clear, clear},
+        {index, Event::drive_ended, offset, wants_offset, drive<25>},
+        {index, Event::drive_ended, idle, nullptr, finish_done},
+
+        {offset, Event::drive_ended, idle, failed, finish},
+        {offset, Event::drive_ended, idle, nullptr, finish_done},
+    };
+    static_assert(declared<rows_flaw(machine_named(map::machines, "home search"), rows)>());
+
+    /// HMST is the state; the actions set it, by go() and finish().
+    static State state_of(const ChipHomeSearch& s, int a) {
+        for (std::size_t i = 0; i < std::size(map::home_drives); ++i)
+            if (map::home_drives[i].hmst == ext_of(s, a).home.hmst) return static_cast<State>(i + 1);
+        return idle;
+    }
+    static void run(ChipHomeSearch& s, Event event, int a) {
+        step(rows, state_of(s, a), event, s, a, [](State) {});
+    }
+};
+
 /// 62h.
 void ChipHomeSearch::start(int a) {
     if (state_.driving(a)) return kernel_.report(id_, drive_ignored, static_cast<std::int64_t>(cmd::HOME), a);
     state_.extension[a].home = {};
     state_.homing |= 1u << a;
     inputs_.set_wants(a);
-    if (!next_step(a, 1)) finish(a);
+    Steps::run(*this, Steps::Event::start, a);
 }
 
-/// Starts the drive of a state.
 void ChipHomeSearch::go(int a, int hmst) {
     Extension& ext = state_.extension[a];
     const map::HomeDrive& drive = map::home_drive(hmst);
@@ -57,32 +195,6 @@ void ChipHomeSearch::go(int a, int hmst) {
     ext.home.found = false;
     const int direction = step_direction(ext, drive.step) * (drive.back ? -1 : 1);
     drives_.start(a, drive_code(drive.step == 4 ? Drive::fixed : Drive::continuous, direction));
-}
-
-/// Starts the first enabled step from `step` on; returns false if there is none, or on an error.
-bool ChipHomeSearch::next_step(int a, int step) {
-    Extension& ext = state_.extension[a];
-    HomingSequence& home = ext.home;
-    if (step <= 1 && step_enabled(ext, 1) && !home_input(state_, a, 1)) return go(a, 3), true;
-    if (step <= 2 && step_enabled(ext, 2)) {
-        home.seen = home_input(state_, a, 2);
-        const bool at_limit = limit_active(state_.axis[a], step_direction(ext, 2));
-        return go(a, home.seen || at_limit ? 12 : 8), true;
-    }
-    if (step <= 3 && step_enabled(ext, 3)) {
-        if (!home_input(state_, a, 3)) return go(a, 20), true;
-        home.error = true;
-        return false;
-    }
-    if (step <= 4 && step_enabled(ext, 4)) return go(a, 25), true;
-    if (!step_enabled(ext, 3)) ask_clear(a);
-    if (em::PCLR.test(ext.em7)) {
-        state_.axis[a].lp = 0;
-        encoders_.set_position(a, 0);
-        comparators_.compare(a);
-        encoders_.watch(a);
-    }
-    return false;
 }
 
 void ChipHomeSearch::finish(int a) {
@@ -94,37 +206,6 @@ void ChipHomeSearch::finish(int a) {
     if (em::HMINT.test(ext.em6)) state_.axis[a].flags |= rr3::HMEND.mask;
 }
 
-/// Continues after the drive of a step.
-void ChipHomeSearch::end_drive(int a) {
-    Extension& ext = state_.extension[a];
-    HomingSequence& home = ext.home;
-    const Axis& axis = state_.axis[a];
-    const map::HomeDrive& drive = map::home_drive(home.hmst);
-    if (home.cancelled) return finish(a);
-    const unsigned errors = axis.finished & rr1::errors.mask;
-    const unsigned own_limit = step_direction(ext, drive.step) > 0 ? rr1::LMTP.mask : rr1::LMTM.mask;
-    const bool limit_is_home = em::LIMIT.test(ext.em7);
-    if (home.hmst == 8 && !limit_is_home && errors == own_limit) {
-        home.seen = home_input(state_, a, 2);
-        return go(a, 12);
-    }
-    const bool tolerated = drive.step <= 2 && !drive.back && limit_is_home;
-    const bool sound = (errors & ~(tolerated ? own_limit : 0u)) == 0;
-    bool reached = drive.step == 4 ? axis.gen.n >= axis.pulses : home.found;
-    if (home.hmst == 3 && errors == own_limit && step_enabled(ext, 2))
-        reached = true;
-    else if (!sound)
-        reached = false;
-    if (!reached) return finish(a);
-    if (home.hmst == 12) return go(a, 15);
-    if (drive.step == 3 && !home.cleared) {
-        home.cleared = true;
-        ask_clear(a);
-        if (ext.clear_until > state_.tick) return;
-    }
-    if (!next_step(a, drive.step + 1)) finish(a);
-}
-
 /// At the end of a tick: continues searches whose drive has ended.
 void ChipHomeSearch::look() {
     for_each_axis(state_.homing, [&](int a) {
@@ -133,7 +214,7 @@ void ChipHomeSearch::look() {
         const bool clearing = ext.home.cleared && ext.clear_until > state_.tick;
         if ((bit(state_.in_place, a) || clearing) && !ext.home.cancelled) return;
         for_each_axis(state_.working, [&](int i) { forward_.bring_up(i, state_.tick); });
-        end_drive(a);
+        Steps::run(*this, Steps::Event::drive_ended, a);
         requests_.make_stale();
     });
 }

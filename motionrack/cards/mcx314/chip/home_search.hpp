@@ -1,4 +1,4 @@
-// The automatic home search of an MCX314As.
+// The automatic home search of an MCX314As. ChipHomeSearch::Steps in the .cpp file is the table of its states.
 #pragma once
 
 #include <motionrack/cards/mcx314/chip/comparators.hpp>
@@ -43,9 +43,10 @@ class ChipHomeSearch {
     void ask_clear(int a);
 
   private:
+    struct Steps;
+
+    /// Starts the drive of a state.
     void go(int a, int hmst);
-    bool next_step(int a, int step);
-    void end_drive(int a);
     void finish(int a);
 
     State& state_;
