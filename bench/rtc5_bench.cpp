@@ -63,12 +63,12 @@ void run_card(benchmark::State& state, Work work, Correction correction, bool ta
         (void)card.set_start_list(list);
         for (const Command& c : list_of(work, correction)) (void)card.put(c);
     }
-    (void)card.simulate_encoder(1);
+    (void)card.parts().encoders.simulate(1);
     if (table) {
-        (void)card.load_correction(table_of(lens_file()), 1);
-        (void)card.select_cor_table(1, 0);
+        (void)card.parts().heads.load_table(table_of(lens_file()), 1);
+        (void)card.parts().heads.select_tables(1, 0);
     }
-    card.start_loop();
+    card.parts().execution.start_loop();
     (void)card.execute_list(1);
     Last last;
     const std::int64_t ticks = looked_at ? 1'000'000 : 100'000'000;
@@ -110,10 +110,10 @@ void run_recorded(benchmark::State& state, Work work, bool real_mirrors, bool le
         (void)card.set_start_list(list);
         for (const Command& c : list_of(work, Correction::encoder)) (void)card.put(c);
     }
-    (void)card.simulate_encoder(1);
-    (void)card.load_correction(table_of(lens_file()), 1);
-    (void)card.select_cor_table(lens ? 1 : 0, 0);
-    card.start_loop();
+    (void)card.parts().encoders.simulate(1);
+    (void)card.parts().heads.load_table(table_of(lens_file()), 1);
+    (void)card.parts().heads.select_tables(lens ? 1 : 0, 0);
+    card.parts().execution.start_loop();
     (void)card.execute_list(1);
     parts::StationSettings settings;
     settings.galvo.ideal_mirrors = !real_mirrors;

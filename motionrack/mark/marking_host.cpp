@@ -110,7 +110,7 @@ Result<void> MarkingHost::arm() {
         return fail(
             ErrorKind::refused,
             "The card is not at standstill before the first part. Nothing was marked; shorten the delays in [pace].");
-    card_.clear_extent();
+    card_.parts().pipeline.clear_extent();
     const double delay = counts_of(job_, following_, job_.parts->track_delay);
     const rtc5::KindInfo range = rtc5::kind_info(rtc5::Kind::count);
     if (delay < range.min || delay > range.max)
@@ -123,7 +123,7 @@ Result<void> MarkingHost::arm() {
                                                     "minimum between two starts. Nothing was marked.",
                                                     job_.parts->spacing));
     MOTIONRACK_CHECK(card_.set_ext_start_delay(static_cast<std::int32_t>(delay), 0));
-    card_.set_extstartpos(0);
+    card_.parts().starts.set_position(0);
     return {};
 }
 
@@ -155,11 +155,11 @@ Result<void> MarkingHost::find_edges() {
 
 Result<void> MarkingHost::set_up() {
     if (prepared_.table) {
-        MOTIONRACK_CHECK(card_.load_correction(prepared_.table, 1));
-        MOTIONRACK_CHECK(card_.select_cor_table(1, 0));
+        MOTIONRACK_CHECK(card_.parts().heads.load_table(prepared_.table, 1));
+        MOTIONRACK_CHECK(card_.parts().heads.select_tables(1, 0));
     }
     const auto error = static_cast<std::uint16_t>(job_.fly.tracking_error_us / 10);
-    if (following_.mode != FlyMode::off) card_.set_tracking_error(error, error);
+    if (following_.mode != FlyMode::off) card_.parts().encoders.set_tracking_error(error, error);
     if (job_.parts) {
         MOTIONRACK_CHECK(arm());
         MOTIONRACK_CHECK(find_edges());
@@ -167,7 +167,7 @@ Result<void> MarkingHost::set_up() {
     begin_ = card_.tick();
     MOTIONRACK_CHECK(senses_.begin(begin_));
     card_.set_inputs(&senses_);
-    if (following_.mode == FlyMode::simulated) MOTIONRACK_CHECK(card_.simulate_encoder(3));
+    if (following_.mode == FlyMode::simulated) MOTIONRACK_CHECK(card_.parts().encoders.simulate(3));
     card_.set_listener(this);
     MOTIONRACK_CHECK(load(1, 0));
     if (alternates_) MOTIONRACK_CHECK(load(2, 1));
@@ -204,7 +204,7 @@ void MarkingHost::ended(std::int64_t tick) {
 /// One poll of the host: selects the next list and loads the next text into the finished one.
 Result<void> MarkingHost::serve() {
     if (!alternates_) return {};
-    card_.set_extstartpos(begun_ % 2 == 0 ? 0 : card_.settings().list1);
+    card_.parts().starts.set_position(begun_ % 2 == 0 ? 0 : card_.settings().list1);
     for (; next_load_ < job_.parts->size() && over_ + 1 >= next_load_; ++next_load_)
         MOTIONRACK_CHECK(load(static_cast<int>(next_load_ % 2) + 1, next_load_));
     return {};
@@ -218,7 +218,7 @@ Result<void> MarkingHost::run(rtc5::Sink* sink, const std::function<void(std::in
                               const RunObserver& watch) {
     for (std::int64_t looked = card_.tick();;) {
         const auto edge = [&] { return next_edge_ < edges_.size() ? begin_ + edges_[next_edge_] : std::int64_t{-1}; };
-        while (edge() == card_.tick()) waiting_.push_back(next_edge_++), card_.external_start();
+        while (edge() == card_.tick()) waiting_.push_back(next_edge_++), card_.parts().starts.trigger();
         MOTIONRACK_CHECK(serve());
         const bool rests = card_.at_rest();
         if (rests && edge() < 0) return {};

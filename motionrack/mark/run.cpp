@@ -56,7 +56,7 @@ Result<Quick> run_quick(const MarkingJob& job, const Prepared& prepared, double 
                    MarkingHost::make(job, prepared, following_of(job, factor)));
     MOTIONRACK_CHECK(line->run(nullptr, {}, watch));
     Quick out{static_cast<double>(line->card().tick() - line->begin()), 0, line->some_lost()};
-    const rtc5::PlanExtent& e = line->card().extent();
+    const rtc5::PlanExtent& e = line->card().parts().pipeline.extent();
     if (!e.empty())
         out.beyond_mm = std::max({rtc5::min_field - e.min_x, rtc5::min_field - e.min_y, e.max_x - rtc5::max_field,
                                   e.max_y - rtc5::max_field}) /
@@ -161,7 +161,7 @@ Result<Marked> mark_once(const MarkingJob& job, const Prepared& prepared, const 
                 : 0;
     out.marked_mm = station.workpiece().length_mm();
     out.energy_j = station.workpiece().energy_j();
-    const rtc5::PlanExtent& e = card.extent();
+    const rtc5::PlanExtent& e = card.parts().pipeline.extent();
     const double k = prepared.bits_per_mm;
     out.reach = e.empty() ? box_of(prepared.drawing) : Box{{e.min_x / k, e.min_y / k}, {e.max_x / k, e.max_y / k}};
     out.course = sink.take_course();

@@ -112,11 +112,11 @@ Result<json> begin_marking(PanelContext& context, const MarkCommand& command, co
                 "Card {} is executing a list. Nothing was marked. Wait until it ends, or stop it with mark_stop.",
                 card));
     if (lists.table) {
-        MOTIONRACK_CHECK(engine.load_correction(lists.table, 1));
-        MOTIONRACK_CHECK(engine.select_cor_table(1, 0));
+        MOTIONRACK_CHECK(engine.parts().heads.load_table(lists.table, 1));
+        MOTIONRACK_CHECK(engine.parts().heads.select_tables(1, 0));
     }
     const auto error = static_cast<std::uint16_t>(lists.tracking_us / 10);
-    if (lists.follows) engine.set_tracking_error(error, error);
+    if (lists.follows) engine.parts().encoders.set_tracking_error(error, error);
     MOTIONRACK_CHECK(mark::put_all(engine, 1, lists.main));
     if (lists.arming.empty()) {
         engine.set_control_mode(0);
@@ -124,7 +124,7 @@ Result<json> begin_marking(PanelContext& context, const MarkCommand& command, co
     } else {
         // Each part's edge starts list 1; starts reset the encoders only after a correction has requested it.
         MOTIONRACK_CHECK(mark::put_all(engine, 2, lists.arming));
-        engine.set_extstartpos(0);
+        engine.parts().starts.set_position(0);
         engine.set_control_mode(rtc5::control_ext_start | rtc5::control_reset_at_start);
         MOTIONRACK_CHECK(engine.execute_list(2));
     }

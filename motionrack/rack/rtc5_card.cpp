@@ -48,12 +48,12 @@ constexpr WordValue values[] = {
     {"STATUS", [](const Engine& e) { return std::int64_t{e.status()}; }},
     {"MARKING_INFO", [](const Engine& e) { return e.state().flags.marking_info; }},
     {"STARTSTOP_INFO", [](const Engine& e) { return std::int64_t{e.startstop_info()}; }},
-    {"LIST_STATUS", [](const Engine& e) { return std::int64_t{e.list_status()}; }},
+    {"LIST_STATUS", [](const Engine& e) { return std::int64_t{e.parts().lists.status()}; }},
     {"XOUT", [](const Engine& e) { return std::int64_t{e.output().a[0]}; }},
     {"YOUT", [](const Engine& e) { return std::int64_t{e.output().a[1]}; }},
     {"XOUT_B", [](const Engine& e) { return std::int64_t{e.output().b[0]}; }},
     {"YOUT_B", [](const Engine& e) { return std::int64_t{e.output().b[1]}; }},
-    {"LIST_POSITION", [](const Engine& e) { return e.list_position(); }},
+    {"LIST_POSITION", [](const Engine& e) { return e.parts().execution.position(); }},
     {"INPUT_POSITION", [](const Engine& e) { return e.input_pointer(); }},
     {"ENCODER0", [](const Engine& e) { return std::int64_t{e.encoder(0)}; }},
     {"ENCODER1", [](const Engine& e) { return std::int64_t{e.encoder(1)}; }},
@@ -76,7 +76,7 @@ constexpr Number numbers[] = {
     {"mark_speed_bits_ms", [](const Engine& e) { return e.state().path.mark_speed; }, "speed of its marks"},
     {"corrected_x_bits", [](const Engine& e) { return e.output().corrected.x; }, "X after all corrections"},
     {"corrected_y_bits", [](const Engine& e) { return e.output().corrected.y; }, "Y after all corrections"},
-    {"encoder_speed_counts_ms", [](const Engine& e) { return e.encoder_speed(); },
+    {"encoder_speed_counts_ms", [](const Engine& e) { return e.parts().encoders.speed(); },
      "speed of the encoder that it follows, signed"},
 };
 

@@ -69,20 +69,23 @@ void bind_lists(Rtc5Class& c) {
     c.def(
         "load_list",
         [](Rtc5& self, std::uint32_t list, std::int64_t position) {
-            return ask(self, [&](Engine& engine) { return engine.load_list(list, position); });
+            return ask(self, [&](Engine& engine) { return engine.parts().lists.load_list(list, position); });
         },
         py::arg("ListNo"), py::arg("Pos") = 0,
         "As set_start_list, for a list that is not running: 1, 2, 0 (the free one) or 3 (free and run to its end); "
         "returns the opened list, or 0.");
     c.def(
         "load_sub",
-        [](Rtc5& self, std::uint32_t index) { order(self, [&](Engine& engine) { return engine.load_sub(index); }); },
+        [](Rtc5& self, std::uint32_t index) {
+            order(self, [&](Engine& engine) { return engine.parts().lists.load_sub(index); });
+        },
         py::arg("index"), "The commands up to list_return become subroutine 0 to 1023.");
     c.def(
         "config_list",
         [](Rtc5& self, std::int64_t list1, std::int64_t list2) {
             order(
-                self, [&](Engine& engine) { return engine.config_list(list1, list2); }, rtc5::Refusal::busy);
+                self, [&](Engine& engine) { return engine.parts().lists.configure(list1, list2); },
+                rtc5::Refusal::busy);
         },
         py::arg("list1"), py::arg("list2"), "Positions of list 1 and list 2; -1: the rest.");
     c.def(
@@ -92,20 +95,36 @@ void bind_lists(Rtc5Class& c) {
                 self, [&](Engine& engine) { return engine.execute_list(list, position); }, rtc5::Refusal::busy);
         },
         py::arg("ListNo"), py::arg("Pos") = 0, "Starts list 1 or 2.");
-    const auto plain = [&](const char* name, void (Engine::*function)(), const char* doc) {
+}
+
+/// Commands without parameters.
+void bind_plain(Rtc5Class& c) {
+    const auto plain = [&](const char* name, void (*function)(Engine&), const char* doc) {
         c.def(
-            name, [function](Rtc5& self) { order(self, [&](Engine& engine) { (engine.*function)(); }); }, doc);
+            name, [function](Rtc5& self) { order(self, [&](Engine& engine) { function(engine); }); }, doc);
     };
-    plain("auto_change", &Engine::auto_change, "The other list starts when this one ends.");
-    plain("start_loop", &Engine::start_loop, "Lists 1 and 2 run in turn.");
-    plain("quit_loop", &Engine::quit_loop, "Ends the alternation of the lists.");
-    plain("pause_list", &Engine::pause_list, "Holds the list.");
-    plain("restart_list", &Engine::restart_list, "Goes on after pause_list.");
-    plain("stop_execution", &Engine::stop_execution, "Ends the list at once.");
-    plain("external_start", &Engine::external_start, "Simulates a start signal.");
-    plain("external_stop", &Engine::external_stop, "Simulates a stop signal.");
-    plain("enable_laser", &Engine::enable_laser, "Enables the laser's signals.");
-    plain("disable_laser", &Engine::disable_laser, "Keeps them in.");
+    plain(
+        "auto_change", [](Engine& engine) { engine.parts().execution.auto_change(); },
+        "The other list starts when this one ends.");
+    plain(
+        "start_loop", [](Engine& engine) { engine.parts().execution.start_loop(); }, "Lists 1 and 2 run in turn.");
+    plain(
+        "quit_loop", [](Engine& engine) { engine.parts().execution.quit_loop(); },
+        "Ends the alternation of the lists.");
+    plain(
+        "pause_list", [](Engine& engine) { engine.pause_list(); }, "Holds the list.");
+    plain(
+        "restart_list", [](Engine& engine) { engine.restart_list(); }, "Goes on after pause_list.");
+    plain(
+        "stop_execution", [](Engine& engine) { engine.stop_execution(); }, "Ends the list at once.");
+    plain(
+        "external_start", [](Engine& engine) { engine.parts().starts.trigger(); }, "Simulates a start signal.");
+    plain(
+        "external_stop", [](Engine& engine) { engine.external_stop(); }, "Simulates a stop signal.");
+    plain(
+        "enable_laser", [](Engine& engine) { engine.parts().laser.enable(); }, "Enables the laser's signals.");
+    plain(
+        "disable_laser", [](Engine& engine) { engine.parts().laser.disable(); }, "Keeps them in.");
 }
 
 void bind_settings(Rtc5Class& c) {
@@ -116,21 +135,22 @@ void bind_settings(Rtc5Class& c) {
                 self, [&](Engine& engine) { return engine.goto_xy(x, y); }, rtc5::Refusal::busy);
         },
         py::arg("x"), py::arg("y"), "Jumps there, bits, while no list runs.");
-    const auto speed = [&](const char* name, rtc5::Op op, void (Engine::*function)(double), const char* doc) {
+    const auto speed = [&](const char* name, rtc5::Op op, void (rtc5::PathGenerator::*function)(double),
+                           const char* doc) {
         c.def(
             name,
             [op, function](Rtc5& self, double bits_ms) {
                 order(self, [&](Engine& engine) -> Result<void> {
                     MOTIONRACK_CHECK(check_parameter(op, bits_ms));
-                    (engine.*function)(bits_ms);
+                    (engine.parts().path.*function)(bits_ms);
                     return {};
                 });
             },
             py::arg("bits_ms"), doc);
     };
-    speed("set_jump_speed_ctrl", rtc5::Op::set_jump_speed, &Engine::set_jump_speed,
+    speed("set_jump_speed_ctrl", rtc5::Op::set_jump_speed, &rtc5::PathGenerator::set_jump_speed,
           "Jump speed, 1.6 to 800,000 bits/ms.");
-    speed("set_mark_speed_ctrl", rtc5::Op::set_mark_speed, &Engine::set_mark_speed,
+    speed("set_mark_speed_ctrl", rtc5::Op::set_mark_speed, &rtc5::PathGenerator::set_mark_speed,
           "Mark speed, 1.6 to 800,000 bits/ms.");
     c.def(
         "set_control_mode",
@@ -145,25 +165,25 @@ void bind_settings(Rtc5Class& c) {
     c.def(
         "set_matrix",
         [](Rtc5& self, int head, std::array<double, 4> matrix, int at_once) {
-            order(self, [&](Engine& engine) { return engine.heads().set_matrix(head, matrix, at_once); });
+            order(self, [&](Engine& engine) { return engine.parts().heads.set_matrix(head, matrix, at_once); });
         },
         py::arg("head"), py::arg("matrix"), py::arg("at_once") = 1, "Matrix m11, m12, m21, m22 of a head, 1 to 4.");
     c.def(
         "set_offset",
         [](Rtc5& self, int head, double x, double y, int at_once) {
-            order(self, [&](Engine& engine) { return engine.heads().set_offset(head, {x, y}, at_once); });
+            order(self, [&](Engine& engine) { return engine.parts().heads.set_offset(head, {x, y}, at_once); });
         },
         py::arg("head"), py::arg("x"), py::arg("y"), py::arg("at_once") = 1, "Offset of a head, bits.");
     c.def(
         "set_angle",
         [](Rtc5& self, int head, double degrees, int at_once) {
-            order(self, [&](Engine& engine) { return engine.heads().set_angle(head, degrees, at_once); });
+            order(self, [&](Engine& engine) { return engine.parts().heads.set_angle(head, degrees, at_once); });
         },
         py::arg("head"), py::arg("degrees"), py::arg("at_once") = 1, "Rotation of a head, degrees.");
     c.def(
         "set_scale",
         [](Rtc5& self, int head, double scale, int at_once) {
-            order(self, [&](Engine& engine) { return engine.heads().set_scale(head, scale, at_once); });
+            order(self, [&](Engine& engine) { return engine.parts().heads.set_scale(head, scale, at_once); });
         },
         py::arg("head"), py::arg("scale"), py::arg("at_once") = 1, "Scale of a head.");
 }
@@ -172,21 +192,21 @@ void bind_answers(Rtc5Class& c) {
     c.def(
         "read_status",
         [](Rtc5& self) {
-            return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.list_status(); });
+            return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.parts().lists.status(); });
         },
         "Status of the lists, as read_status.");
     c.def(
         "get_status",
         [](Rtc5& self) {
             return ask(self, [](Engine& engine) -> Result<std::pair<std::uint32_t, std::int64_t>> {
-                return std::pair(engine.status(), engine.list_position());
+                return std::pair(engine.status(), engine.parts().execution.position());
             });
         },
         "(status, position in the list).");
     c.def(
         "get_marking_info",
         [](Rtc5& self) {
-            return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.get_marking_info(); });
+            return ask(self, [](Engine& e) -> Result<std::uint32_t> { return e.parts().flags.take_marking_info(); });
         },
         "Errors of marking, bits; reading clears them. See marking_info_text.");
     c.def_static(
@@ -201,7 +221,7 @@ void bind_answers(Rtc5Class& c) {
     c.def(
         "get_value",
         [](Rtc5& self, std::uint32_t signal) {
-            return ask(self, [&](Engine& engine) { return engine.recorder().value(signal); });
+            return ask(self, [&](Engine& engine) { return engine.parts().recorder.value(signal); });
         },
         py::arg("signal"), "A signal by its number, 0 to 255.");
     c.def(
@@ -278,6 +298,7 @@ void bind_rtc5(py::module_& m) {
           py::arg("world"), py::arg("card"));
     bind_list_commands(c);
     bind_lists(c);
+    bind_plain(c);
     bind_settings(c);
     bind_answers(c);
     bind_rtc5_controls(c);

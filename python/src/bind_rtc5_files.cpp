@@ -51,7 +51,7 @@ int load_correction_file(Rtc5& self, const Name& name, int number, int dim) {
         MOTIONRACK_CHECK(rtc5::check_parameter("load_correction_file", "Dim", dim, 2, 3));
         MOTIONRACK_TRY(std::shared_ptr<const rtc5::Table> table, table_of_file(name));
         if (table != nullptr) note = table->note;
-        return engine.load_correction(std::move(table), number);
+        return engine.parts().heads.load_table(std::move(table), number);
     });
     if (!note.empty() && PyErr_WarnEx(PyExc_UserWarning, note.c_str(), 1) != 0) throw py::error_already_set();
     return 0;
@@ -60,12 +60,12 @@ int load_correction_file(Rtc5& self, const Name& name, int number, int dim) {
 int load_fly_2d_table(Rtc5& self, const Name& name, std::uint32_t number) {
     order(self, [&](Engine& engine) -> Result<void> {
         if (!name) {
-            engine.fly().load_table(nullptr);
+            engine.parts().fly.load_table(nullptr);
             return {};
         }
         MOTIONRACK_TRY(const std::string text, read_whole_file(*name, fly_table_limit));
         MOTIONRACK_TRY(rtc5::FlyTable table, rtc5::FlyTable::read(text, number, *name));
-        engine.fly().load_table(std::make_shared<const rtc5::FlyTable>(std::move(table)));
+        engine.parts().fly.load_table(std::make_shared<const rtc5::FlyTable>(std::move(table)));
         return {};
     });
     return 0;
@@ -74,14 +74,14 @@ int load_fly_2d_table(Rtc5& self, const Name& name, std::uint32_t number) {
 std::string table_note(Rtc5& self, int number) {
     return order(self, [&](Engine& engine) -> Result<std::string> {
         MOTIONRACK_CHECK(rtc5::check_parameter("table_note", "TableNo", number, 1, rtc5::table_count));
-        const rtc5::Table* const table = engine.table(number);
+        const rtc5::Table* const table = engine.parts().heads.table(number);
         return table == nullptr ? "" : table->note;
     });
 }
 
 py::array_t<std::int32_t> get_waveform(Rtc5& self, int channel, std::int64_t count) {
     const std::vector<std::int32_t> samples = order(self, [&](Engine& engine) -> Result<std::vector<std::int32_t>> {
-        const rtc5::Recording& r = engine.recorder().recording();
+        const rtc5::Recording& r = engine.parts().recorder.recording();
         if (r.count == 0)
             return fail(ErrorKind::refused, "get_waveform: nothing was recorded (set_trigger); nothing was given");
         MOTIONRACK_CHECK(rtc5::check_parameter("get_waveform", "Channel", channel, 1, static_cast<double>(r.channels)));
@@ -89,7 +89,7 @@ py::array_t<std::int32_t> get_waveform(Rtc5& self, int channel, std::int64_t cou
                                                static_cast<double>(r.count)));
         std::vector<std::int32_t> out(static_cast<std::size_t>(count));
         for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] = engine.recorder().recorded(channel - 1, static_cast<std::int64_t>(i));
+            out[i] = engine.parts().recorder.recorded(channel - 1, static_cast<std::int64_t>(i));
         return out;
     });
     return py::array_t<std::int32_t>(static_cast<py::ssize_t>(samples.size()), samples.data());
@@ -166,7 +166,7 @@ void bind_rtc5_files(Rtc5Class& c) {
     c.def(
         "set_mcbsp_out_ptr",
         [](Rtc5& self, const std::vector<std::uint32_t>& signals) {
-            order(self, [&](Engine& engine) { return engine.recorder().send(signals); });
+            order(self, [&](Engine& engine) { return engine.parts().recorder.send(signals); });
         },
         py::arg("SignalPtr"),
         "Sends these signals of get_value in turn, one word in 10 us; at most 8, none: sending ends. Refused: a signal "

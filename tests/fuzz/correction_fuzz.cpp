@@ -88,9 +88,10 @@ void check_written(const CorrectionFile& file, const Bytes& bytes) {
 void check_card(const CorrectionFile& file, std::span<const std::uint8_t> input) {
     static const Settings settings{16, 4, 4};
     Engine card(settings);
-    require(card.load_correction(table_of(file), 1).has_value() && card.select_cor_table(1, 0).has_value(),
+    require(card.parts().heads.load_table(table_of(file), 1).has_value() &&
+                card.parts().heads.select_tables(1, 0).has_value(),
             "a card takes a file that was read");
-    card.set_jump_speed(800'000);
+    card.parts().path.set_jump_speed(800'000);
     for (std::size_t i = 0; i < 4 && input.size() >= 2; ++i, input = input.first(input.size() - 2)) {
         const std::size_t column = input[input.size() - 1], row = input[input.size() - 2];
         const std::size_t node = row * grid_side + column;

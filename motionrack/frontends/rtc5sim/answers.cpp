@@ -51,20 +51,20 @@ Result<void> load_correction(Card& card, const char* name, UINT number, UINT dim
         MOTIONRACK_TRY(const rtc5::CorrectionFile file, rtc5::read_ct5({begin, bytes.size()}, name));
         table = rtc5::table_of(file);
     }
-    MOTIONRACK_CHECK(card.engine.load_correction(std::move(table), small(number)));
+    MOTIONRACK_CHECK(card.engine.parts().heads.load_table(std::move(table), small(number)));
     answer = loaded;
     return {};
 }
 
 Result<void> load_fly_table(Card& card, const char* name, UINT number, UINT& answer) {
     if (name == nullptr) {
-        card.engine.fly().load_table(nullptr);
+        card.engine.parts().fly.load_table(nullptr);
     } else {
         answer = not_read;
         MOTIONRACK_TRY(const std::string text, bytes_of(name, max_table_bytes));
         answer = damaged;
         MOTIONRACK_TRY(rtc5::FlyTable table, rtc5::FlyTable::read(text, number, name));
-        card.engine.fly().load_table(std::make_shared<const rtc5::FlyTable>(std::move(table)));
+        card.engine.parts().fly.load_table(std::make_shared<const rtc5::FlyTable>(std::move(table)));
     }
     answer = loaded;
     return {};
@@ -73,7 +73,7 @@ Result<void> load_fly_table(Card& card, const char* name, UINT number, UINT& ans
 /// Returns word `para` of the head of table `number`; 0 for a 1:1 table.
 Result<double> header_word(const Card& card, std::int64_t number, UINT para) {
     MOTIONRACK_CHECK(check_range("ParaNo", para, 0, 15));
-    const rtc5::Table* const table = card.engine.table(number);
+    const rtc5::Table* const table = card.engine.parts().heads.table(number);
     return table == nullptr ? 0.0 : table->header[para];
 }
 
@@ -154,7 +154,7 @@ double n_get_head_para(UINT CardNo, UINT HeadNo, UINT ParaNo) {
 void n_get_status(UINT CardNo, UINT* Status, UINT* Pos) {
     ask_two(__func__, CardNo, Status, Pos, [&](Card& card) {
         *Status = card.engine.status();
-        *Pos = static_cast<UINT>(card.engine.list_position());
+        *Pos = static_cast<UINT>(card.engine.parts().execution.position());
     });
 }
 
@@ -165,7 +165,7 @@ void n_set_delay_mode(UINT CardNo, UINT VarPoly, UINT, UINT EdgeLevel, UINT MinJ
         delays.edge_level = EdgeLevel;
         delays.min_jump = MinJumpDelay;
         delays.jump_limit = JumpLengthLimit;
-        return card.engine.set_delays(delays);
+        return card.engine.parts().path.set_delays(delays);
     });
 }
 
@@ -182,7 +182,7 @@ void n_read_encoder(UINT CardNo, long* Encoder0_1, long* Encoder1_1, long* Encod
     question(__func__, CardNo, false, [&](Card& card) -> Result<bool> {
         for (const long* place : {Encoder0_1, Encoder1_1, Encoder0_2, Encoder1_2})
             MOTIONRACK_CHECK(check_pointer(place, "An address of the answer"));
-        const auto first = card.engine.read_encoder(0), second = card.engine.read_encoder(1);
+        const auto first = card.engine.parts().encoders.stored(0), second = card.engine.parts().encoders.stored(1);
         *Encoder0_1 = first[0], *Encoder1_1 = first[1];
         *Encoder0_2 = second[0], *Encoder1_2 = second[1];
         return true;
@@ -200,8 +200,8 @@ void n_set_fly_tracking_error(UINT CardNo, UINT TrackingErrorX, UINT TrackingErr
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_CHECK(check_range("TrackingErrorX", TrackingErrorX, 0, 65535));
         MOTIONRACK_CHECK(check_range("TrackingErrorY", TrackingErrorY, 0, 65535));
-        card.engine.set_tracking_error(static_cast<std::uint16_t>(TrackingErrorX),
-                                       static_cast<std::uint16_t>(TrackingErrorY));
+        card.engine.parts().encoders.set_tracking_error(static_cast<std::uint16_t>(TrackingErrorX),
+                                                        static_cast<std::uint16_t>(TrackingErrorY));
         return {};
     });
 }
@@ -209,7 +209,7 @@ void n_set_fly_tracking_error(UINT CardNo, UINT TrackingErrorX, UINT TrackingErr
 void n_set_extstartpos(UINT CardNo, UINT Pos) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_CHECK(check_range("Pos", Pos, 0, static_cast<UINT>(card.engine.settings().list_memory - 1)));
-        card.engine.set_extstartpos(Pos);
+        card.engine.parts().starts.set_position(Pos);
         return {};
     });
 }
@@ -217,14 +217,14 @@ void n_set_extstartpos(UINT CardNo, UINT Pos) {
 long n_read_mcbsp(UINT CardNo, UINT No) {
     return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> {
         MOTIONRACK_CHECK(check_range("No", No, 0, 3));
-        return as(ErrorKind::stopped, card.engine.mcbsp().read(small(No)));
+        return as(ErrorKind::stopped, card.engine.parts().mcbsp.read(small(No)));
     });
 }
 
 long n_read_multi_mcbsp(UINT CardNo, UINT No) {
     return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> {
         MOTIONRACK_CHECK(check_range("No", No, 0, 7));
-        return card.engine.mcbsp().typed(small(No));
+        return card.engine.parts().mcbsp.typed(small(No));
     });
 }
 
@@ -259,7 +259,7 @@ void n_set_mcbsp_out_ptr(UINT CardNo, UINT Number, ULONG_PTR SignalPtr) {
         // NOLINTNEXTLINE(performance-no-int-to-ptr): the command takes an address as a number
         const auto* const signals = reinterpret_cast<const std::uint32_t*>(SignalPtr);
         if (Number > 0) MOTIONRACK_CHECK(check_pointer(signals, "SignalPtr"));
-        return card.engine.recorder().send({signals, Number});
+        return card.engine.parts().recorder.send({signals, Number});
     });
 }
 
@@ -267,7 +267,7 @@ void n_set_mcbsp_out_ptr(UINT CardNo, UINT Number, ULONG_PTR SignalPtr) {
 
 void n_measurement_status(UINT CardNo, UINT* Busy, UINT* Pos) {
     ask_two(__func__, CardNo, Busy, Pos, [&](Card& card) {
-        const rtc5::Recording& r = card.engine.recorder().recording();
+        const rtc5::Recording& r = card.engine.parts().recorder.recording();
         *Busy = r.period != 0;
         *Pos = static_cast<UINT>(r.count) - 1;  // 2^32 - 1: nothing recorded
     });
@@ -275,14 +275,14 @@ void n_measurement_status(UINT CardNo, UINT* Busy, UINT* Pos) {
 
 void n_get_waveform(UINT CardNo, UINT Channel, UINT Number, ULONG_PTR Ptr) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
-        const rtc5::Recording& r = card.engine.recorder().recording();
+        const rtc5::Recording& r = card.engine.parts().recorder.recording();
         if (r.count == 0) return fail(ErrorKind::refused, "nothing was recorded (set_trigger); nothing was given");
         MOTIONRACK_CHECK(check_range("Channel", Channel, 1, static_cast<UINT>(r.channels)));
         MOTIONRACK_CHECK(check_range("Number", Number, 1, static_cast<UINT>(r.count)));
         // NOLINTNEXTLINE(performance-no-int-to-ptr): the command takes an address as a number
         auto* const to = reinterpret_cast<std::int32_t*>(Ptr);
         MOTIONRACK_CHECK(check_pointer(to, "Ptr"));
-        for (UINT i = 0; i < Number; ++i) to[i] = card.engine.recorder().recorded(Channel - 1, i);
+        for (UINT i = 0; i < Number; ++i) to[i] = card.engine.parts().recorder.recorded(Channel - 1, i);
         return {};
     });
 }

@@ -136,12 +136,22 @@ void command(std::string_view who, UINT number, Call call) noexcept {
 /// The part of the engine that a command belongs to, or the engine itself.
 template <class Part>
 Part& part_of(rtc5::Engine& engine) {
-    if constexpr (std::is_same_v<Part, rtc5::FlyCorrection>)
-        return engine.fly();
+    if constexpr (std::is_same_v<Part, rtc5::ListMemory>)
+        return engine.parts().lists;
+    else if constexpr (std::is_same_v<Part, rtc5::ListExecution>)
+        return engine.parts().execution;
+    else if constexpr (std::is_same_v<Part, rtc5::BeltEncoders>)
+        return engine.parts().encoders;
+    else if constexpr (std::is_same_v<Part, rtc5::ExternalStarts>)
+        return engine.parts().starts;
+    else if constexpr (std::is_same_v<Part, rtc5::LaserControl>)
+        return engine.parts().laser;
+    else if constexpr (std::is_same_v<Part, rtc5::FlyCorrection>)
+        return engine.parts().fly;
     else if constexpr (std::is_same_v<Part, rtc5::HeadTransforms>)
-        return engine.heads();
+        return engine.parts().heads;
     else if constexpr (std::is_same_v<Part, rtc5::SignalRecorder>)
-        return engine.recorder();
+        return engine.parts().recorder;
     else
         return engine;
 }

@@ -46,7 +46,7 @@ void n_reset_error(UINT CardNo, UINT Code) {
 // ---- Files and tables
 
 void n_select_cor_table(UINT CardNo, UINT HeadA, UINT HeadB) {
-    call(__func__, CardNo, &rtc5::Engine::select_cor_table, small(HeadA), small(HeadB));
+    call(__func__, CardNo, &rtc5::HeadTransforms::select_tables, small(HeadA), small(HeadB));
 }
 
 // ---- Running lists
@@ -54,7 +54,8 @@ void n_select_cor_table(UINT CardNo, UINT HeadA, UINT HeadB) {
 void n_config_list(UINT CardNo, UINT Mem1, UINT Mem2) {
     command(__func__, CardNo, [&](Card& card) {
         // -1 means all remaining memory.
-        return as(busy_or_wrong(card), card.engine.config_list(Mem1, Mem2 == 0xFFFFFFFF ? -1 : std::int64_t{Mem2}));
+        return as(busy_or_wrong(card),
+                  card.engine.parts().lists.configure(Mem1, Mem2 == 0xFFFFFFFF ? -1 : std::int64_t{Mem2}));
     });
 }
 void n_set_start_list(UINT CardNo, UINT ListNo) {
@@ -71,10 +72,10 @@ void n_set_start_list_2(UINT CardNo) {
 }
 UINT n_load_list(UINT CardNo, UINT ListNo, UINT Pos) {
     return question(__func__, CardNo, UINT{},
-                    [&](Card& card) -> Result<UINT> { return card.engine.load_list(ListNo, Pos); });
+                    [&](Card& card) -> Result<UINT> { return card.engine.parts().lists.load_list(ListNo, Pos); });
 }
 void n_load_sub(UINT CardNo, UINT Index) {
-    call(__func__, CardNo, &rtc5::Engine::load_sub, Index);
+    call(__func__, CardNo, &rtc5::ListMemory::load_sub, Index);
 }
 UINT n_get_input_pointer(UINT CardNo) {
     return with_card(__func__, CardNo, UINT{},
@@ -98,17 +99,18 @@ void n_execute_list_pos(UINT CardNo, UINT ListNo, UINT Pos) {
     execute(__func__, CardNo, ListNo, Pos);
 }
 void n_execute_at_pointer(UINT CardNo, UINT Pos) {
-    command(__func__, CardNo,
-            [&](Card& card) -> Result<void> { return as(busy_or_wrong(card), card.engine.execute_at(Pos)); });
+    command(__func__, CardNo, [&](Card& card) -> Result<void> {
+        return as(busy_or_wrong(card), card.engine.parts().execution.execute_at(Pos));
+    });
 }
 void n_auto_change(UINT CardNo) {
-    call(__func__, CardNo, &rtc5::Engine::auto_change);
+    call(__func__, CardNo, &rtc5::ListExecution::auto_change);
 }
 void n_start_loop(UINT CardNo) {
-    call(__func__, CardNo, &rtc5::Engine::start_loop);
+    call(__func__, CardNo, &rtc5::ListExecution::start_loop);
 }
 void n_quit_loop(UINT CardNo) {
-    call(__func__, CardNo, &rtc5::Engine::quit_loop);
+    call(__func__, CardNo, &rtc5::ListExecution::quit_loop);
 }
 void n_pause_list(UINT CardNo) {
     call(__func__, CardNo, &rtc5::Engine::pause_list);
@@ -120,7 +122,8 @@ void n_stop_execution(UINT CardNo) {
     call(__func__, CardNo, &rtc5::Engine::stop_execution);
 }
 UINT n_read_status(UINT CardNo) {
-    return question(__func__, CardNo, UINT{}, [](Card& card) -> Result<UINT> { return card.engine.list_status(); });
+    return question(__func__, CardNo, UINT{},
+                    [](Card& card) -> Result<UINT> { return card.engine.parts().lists.status(); });
 }
 void n_goto_xy(UINT CardNo, long X, long Y) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
@@ -133,14 +136,14 @@ void n_goto_xy(UINT CardNo, long X, long Y) {
 void n_set_jump_speed_ctrl(UINT CardNo, double Speed) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_CHECK(checked(rtc5::Op::set_jump_speed, Speed));
-        card.engine.set_jump_speed(Speed);
+        card.engine.parts().path.set_jump_speed(Speed);
         return {};
     });
 }
 void n_set_mark_speed_ctrl(UINT CardNo, double Speed) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_CHECK(checked(rtc5::Op::set_mark_speed, Speed));
-        card.engine.set_mark_speed(Speed);
+        card.engine.parts().path.set_mark_speed(Speed);
         return {};
     });
 }

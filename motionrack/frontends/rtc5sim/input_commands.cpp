@@ -18,7 +18,7 @@ void taken(const char* who, UINT number) {
 // ---- Encoders and starts
 
 void n_simulate_encoder(UINT CardNo, UINT EncoderNo) {
-    call(__func__, CardNo, &rtc5::Engine::simulate_encoder, small(EncoderNo));
+    call(__func__, CardNo, &rtc5::BeltEncoders::simulate, small(EncoderNo));
 }
 void n_set_rot_center(UINT CardNo, long X, long Y) {
     call(__func__, CardNo, &rtc5::FlyCorrection::set_rot_center, point(X, Y));
@@ -27,12 +27,12 @@ void n_init_fly_2d(UINT CardNo, long OffsetX, long OffsetY) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_TRY(const std::int32_t x, whole32("OffsetX", OffsetX));
         MOTIONRACK_TRY(const std::int32_t y, whole32("OffsetY", OffsetY));
-        card.engine.fly().zero_2d(x, y);
+        card.engine.parts().fly.zero_2d(x, y);
         return {};
     });
 }
 void n_set_encoder_speed_ctrl(UINT CardNo, UINT EncoderNo, double Speed, double Smooth) {
-    call(__func__, CardNo, &rtc5::Engine::set_encoder_speed, small(EncoderNo), Speed, Smooth);
+    call(__func__, CardNo, &rtc5::BeltEncoders::watch_speed, small(EncoderNo), Speed, Smooth);
 }
 void n_set_ext_start_delay(UINT CardNo, long Delay, UINT EncoderNo) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
@@ -41,14 +41,14 @@ void n_set_ext_start_delay(UINT CardNo, long Delay, UINT EncoderNo) {
     });
 }
 void n_simulate_ext_start_ctrl(UINT CardNo) {
-    call(__func__, CardNo, &rtc5::Engine::external_start);
+    call(__func__, CardNo, &rtc5::ExternalStarts::trigger);
 }
 void n_simulate_ext_stop(UINT CardNo) {
     call(__func__, CardNo, &rtc5::Engine::external_stop);
 }
 UINT n_get_marking_info(UINT CardNo) {
     return question(__func__, CardNo, UINT{},
-                    [&](Card& card) -> Result<UINT> { return card.engine.get_marking_info(); });
+                    [&](Card& card) -> Result<UINT> { return card.engine.parts().flags.take_marking_info(); });
 }
 UINT n_get_startstop_info(UINT CardNo) {
     return question(__func__, CardNo, UINT{},
@@ -58,8 +58,9 @@ UINT n_get_startstop_info(UINT CardNo) {
 // ---- McBSP
 
 long n_get_mcbsp(UINT CardNo) {
-    return question(__func__, CardNo, 0L,
-                    [](Card& card) -> Result<long> { return as(ErrorKind::stopped, card.engine.mcbsp().store_now()); });
+    return question(__func__, CardNo, 0L, [](Card& card) -> Result<long> {
+        return as(ErrorKind::stopped, card.engine.parts().mcbsp.store_now());
+    });
 }
 
 void n_set_mcbsp_in(UINT CardNo, UINT Mode, double Scale) {
@@ -88,7 +89,7 @@ void n_apply_mcbsp(UINT CardNo, UINT HeadNo, UINT at_once) {
 
 long n_get_value(UINT CardNo, UINT Signal) {
     return question(__func__, CardNo, 0L,
-                    [&](Card& card) -> Result<long> { return card.engine.recorder().value(Signal); });
+                    [&](Card& card) -> Result<long> { return card.engine.parts().recorder.value(Signal); });
 }
 void n_stop_trigger(UINT CardNo) {
     call(__func__, CardNo, &rtc5::SignalRecorder::stop);
@@ -97,10 +98,10 @@ void n_stop_trigger(UINT CardNo) {
 // ---- Laser signals
 
 void n_enable_laser(UINT CardNo) {
-    call(__func__, CardNo, &rtc5::Engine::enable_laser);
+    call(__func__, CardNo, &rtc5::LaserControl::enable);
 }
 void n_disable_laser(UINT CardNo) {
-    call(__func__, CardNo, &rtc5::Engine::disable_laser);
+    call(__func__, CardNo, &rtc5::LaserControl::disable);
 }
 void n_set_laser_timing(UINT CardNo, UINT, UINT, UINT, UINT) {
     taken(__func__, CardNo);

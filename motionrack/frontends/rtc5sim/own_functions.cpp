@@ -52,8 +52,9 @@ void move(Card& card, std::size_t encoder, std::int64_t count, double counts_per
     card.belt.set(encoder, tick, count, counts_per_s);
     card.engine.set_inputs(card.belt.moves() ? &card.belt : nullptr);
     for (int e = 0; e < rtc5::encoder_count; ++e)
-        card.engine.set_count(e, static_cast<std::int32_t>(
-                                     static_cast<std::uint32_t>(card.belt.count(static_cast<std::size_t>(e), tick))));
+        card.engine.parts().encoders.set_count(
+            e,
+            static_cast<std::int32_t>(static_cast<std::uint32_t>(card.belt.count(static_cast<std::size_t>(e), tick))));
 }
 
 }  // namespace
@@ -116,14 +117,14 @@ int rtc5sim_encoder_count(UINT CardNo, UINT Encoder, int32_t count) {
 
 int rtc5sim_receive(UINT CardNo, uint32_t word) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {
-        card.engine.mcbsp().receive(word);
+        card.engine.parts().mcbsp.receive(word);
         return {};
     });
 }
 
 int rtc5sim_start(UINT CardNo) {
     return done(__func__, CardNo, [](Card& card) -> Result<void> {
-        card.engine.external_start();
+        card.engine.parts().starts.trigger();
         return {};
     });
 }
@@ -149,7 +150,7 @@ int rtc5sim_output(UINT CardNo, int32_t* x, int32_t* y, int* laser) {
 int rtc5sim_sent(UINT CardNo, int32_t* word) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_CHECK(check_pointer(word, "The address of the word"));
-        *word = card.engine.recorder().sent();
+        *word = card.engine.parts().recorder.sent();
         return {};
     });
 }
@@ -168,7 +169,7 @@ const char* rtc5sim_table_note(UINT CardNo, UINT TableNo) {
         if (TableNo < 1 || TableNo > rtc5::table_count)
             return fail(ErrorKind::refused,
                         fmt::format("table {} must be 1 to {}. Nothing was checked.", TableNo, rtc5::table_count));
-        const rtc5::Table* const table = card.engine.table(TableNo);
+        const rtc5::Table* const table = card.engine.parts().heads.table(TableNo);
         if (table != nullptr) note_text = table->note;
         return {};
     });

@@ -21,7 +21,7 @@ struct LogSink final : rtc5::Sink {
 
 /// Starts jumps and marks near the field edges while the simulated belt moves the output.
 void start_list(Engine& card) {
-    EXPECT_TRUE(card.simulate_encoder(3));
+    EXPECT_TRUE(card.parts().encoders.simulate(3));
     EXPECT_TRUE(card.set_start_list(1));
     const auto put = [&](Op op, std::initializer_list<double> p = {}) {
         EXPECT_TRUE(card.put(*rtc5::list_command(op, p)));
@@ -65,7 +65,7 @@ TEST(OverflowLog, HasTheTicksAtWhichTheFlagsBecomeSet) {
     } none;
     for (std::int64_t tick = 0; tick <= card.tick(); ++tick) {
         std::uint32_t word = 0;
-        if (tick < card.tick()) slow.run_until(tick + 1, &none), word = slow.get_marking_info();
+        if (tick < card.tick()) slow.run_until(tick + 1, &none), word = slow.parts().flags.take_marking_info();
         const rtc5::Point at = slow.output().corrected;
         const double beyond[4] = {-524288 - at.x, at.x - 524287, -524288 - at.y, at.y - 524287};
         for (std::size_t bit = 0; bit < 4; ++bit) {

@@ -215,7 +215,7 @@ TEST(MarkingLine, RepeatedEqualWordsAreReceived) {
     Line bench(std::string(marking_line) + "[belt.line.sender]\nbits_per_mm = 1000\nperiod_us = 100\n");
     ASSERT_TRUE(bench.session->set_part("line.speed_mm_s", 0));
     ASSERT_TRUE(bench.session->set_wire("line.mcbsp", 77)) << "the line between sender and card, driven by hand";
-    ASSERT_TRUE(bench.engine().fly().set_multi_mcbsp_in(1, 16384, 0));
+    ASSERT_TRUE(bench.engine().parts().fly.set_multi_mcbsp_in(1, 16384, 0));
     bench.ms(1);
     // 77 = 9 * 8 + 5: words of type 5 fill the locations in turn.
     for (const char* place : {"MCBSP0", "MCBSP1", "MCBSP2", "MCBSP3"}) EXPECT_EQ(bench.peek(place), 77);

@@ -83,7 +83,7 @@ TEST(Rtc5InARack, StartAndStopAreActiveLow) {
 
 TEST(Rtc5InARack, AWordOnItsMcbspIsANumberOf32Bits) {
     Rtc5Bench bench;
-    ASSERT_TRUE(bench.engine().fly().set_mcbsp_in(1, 1));
+    ASSERT_TRUE(bench.engine().parts().fly.set_mcbsp_in(1, 1));
     bench.set("mcbsp", -2'147'483'648.0);
     EXPECT_EQ(bench.peek("MCBSP1"), -2'147'483'648);
     bench.set("mcbsp", 70);
@@ -113,11 +113,11 @@ TEST(Rtc5InARack, ACopyContinuesIdenticallyWithItsTablesAndRecordings) {
     bench.put(Op::mark_abs, {4000, 500});
     bench.put(Op::fly_return, {0, 0});
     bench.go();
-    ASSERT_TRUE(bench.engine().simulate_encoder(1));
+    ASSERT_TRUE(bench.engine().parts().encoders.simulate(1));
     const auto file = rtc5::correction_of(sim::ScanLens{});
     ASSERT_TRUE(file) << file.error().message;
-    ASSERT_TRUE(bench.engine().load_correction(rtc5::table_of(*file), 1));
-    ASSERT_TRUE(bench.engine().select_cor_table(1, 0));
+    ASSERT_TRUE(bench.engine().parts().heads.load_table(rtc5::table_of(*file), 1));
+    ASSERT_TRUE(bench.engine().parts().heads.select_tables(1, 0));
     bench.advance_us(333);
     const std::unique_ptr<Session> copy = *bench.session->copy();
     EXPECT_EQ(copy->state_hash(), bench.session->state_hash());
@@ -127,9 +127,9 @@ TEST(Rtc5InARack, ACopyContinuesIdenticallyWithItsTablesAndRecordings) {
     EXPECT_EQ(copy->state_hash(), bench.session->state_hash());
     EXPECT_NE(*copy->wire("c1.xout"), 0);
     const rtc5::Engine& ended = rtc5_card_of(copy->rack(), "c1")->engine();
-    ASSERT_GT(ended.recorder().recording().count, 40);
-    for (std::int64_t i = 0; i < ended.recorder().recording().count; ++i)
-        EXPECT_EQ(ended.recorder().recorded(0, i), bench.engine().recorder().recorded(0, i)) << i;
+    ASSERT_GT(ended.parts().recorder.recording().count, 40);
+    for (std::int64_t i = 0; i < ended.parts().recorder.recording().count; ++i)
+        EXPECT_EQ(ended.parts().recorder.recorded(0, i), bench.engine().parts().recorder.recorded(0, i)) << i;
 }
 
 TEST(Rtc5InARack, ItsOutputsAreRecordedTickByTick) {

@@ -47,6 +47,7 @@ class BeltEncoders {
     Result<void> simulate(int which);
     /// store_encoder
     void store(std::size_t pos);
+    /// Both counts of store_encoder, `pos` 0 or 1.
     std::array<std::int32_t, 2> stored(int pos) const;
     /// set_encoder_speed
     Result<void> watch_speed(int encoder, double counts_ms, double smooth);

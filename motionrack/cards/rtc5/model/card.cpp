@@ -17,7 +17,7 @@ constexpr Duration half_us = nanoseconds(500);
 Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& settings)
     : kernel_(kernel), engine_(settings) {
     id_ = kernel.add(*this, sim::Phase::cards, name);
-    lists_.bytes = std::as_writable_bytes(engine_.memory());
+    lists_.bytes = std::as_writable_bytes(engine_.parts().lists.commands());
     lists_.hashed = false;  // State::memory_hash
     inputs_.bytes = sim::bytes_of(lines_);
     kernel.add(lists_, sim::Phase::cards, name + ".lists");
@@ -116,14 +116,14 @@ void Card::on_wire(int pin, int level, Instant now) {
             count_line(static_cast<std::size_t>(pin / 2), pin % 2, level, now);
             break;
         case start_n:
-            if (level == 0) engine_.external_start();
+            if (level == 0) engine_.parts().starts.trigger();
             break;
         case stop_n:
             if (level == 0) engine_.external_stop();
             break;
         case mcbsp:
         case mcbsp_frame:
-            engine_.mcbsp().receive(static_cast<std::uint32_t>(kernel_.level(wire(mcbsp))));
+            engine_.parts().mcbsp.receive(static_cast<std::uint32_t>(kernel_.level(wire(mcbsp))));
             break;
         default:
             break;
@@ -144,13 +144,14 @@ void Card::count_line(std::size_t encoder, std::int64_t bit, int level, Instant 
     if (lines_.changed_at[encoder] == now.count()) {
         step = -lines_.last_step[encoder];
         lines_.changed_at[encoder] = -1;
-        engine_.encoder_sequence_error(static_cast<int>(encoder));
+        engine_.parts().flags.raise_sequence_error(static_cast<int>(encoder), engine_.tick());
     } else {
         lines_.changed_at[encoder] = now.count();
         lines_.last_step[encoder] = step;
     }
     const auto input = static_cast<std::uint32_t>(engine_.state().encoders.input[encoder]);
-    engine_.set_count(static_cast<int>(encoder), static_cast<std::int32_t>(input + static_cast<std::uint32_t>(step)));
+    engine_.parts().encoders.set_count(static_cast<int>(encoder),
+                                       static_cast<std::int32_t>(input + static_cast<std::uint32_t>(step)));
 }
 
 void Card::notify() {

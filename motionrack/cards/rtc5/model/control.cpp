@@ -7,35 +7,35 @@ namespace motionrack::rtc5 {
 
 void Engine::load_program_file() {
     state_.reset(settings_);
-    memory_.clear();
-    heads_.clear_tables();
-    fly_.load_table(nullptr);
-    laser_.switch_off();
+    parts_.lists.clear();
+    parts_.heads.clear_tables();
+    parts_.fly.load_table(nullptr);
+    parts_.laser.switch_off();
 }
 
 Result<void> Engine::execute_list(std::uint32_t list, std::int64_t position) {
-    MOTIONRACK_TRY(const std::int64_t at, memory_.find_position(list, position));
-    return list_.execute_at(at);
+    MOTIONRACK_TRY(const std::int64_t at, parts_.lists.find_position(list, position));
+    return parts_.execution.execute_at(at);
 }
 
 /// `cause`: bit of the start and stop info.
 void Engine::stop(std::uint32_t cause) {
     State& s = state_;
-    list_.stop();
-    path_.stop();
-    s.p = fly_.leave(s.p, heads_.global());
-    starts_.stop();
-    laser_.switch_off();
-    recorder_.stop();
-    flags_.raise_startstop(cause);
+    parts_.execution.stop();
+    parts_.path.stop();
+    s.p = parts_.fly.leave(s.p, parts_.heads.global());
+    parts_.starts.stop();
+    parts_.laser.switch_off();
+    parts_.recorder.stop();
+    parts_.flags.raise_startstop(cause);
 }
 
 void Engine::pause_list() {
-    if (list_.pause()) laser_.switch_now(false);
+    if (parts_.execution.pause()) parts_.laser.switch_now(false);
 }
 
 void Engine::restart_list() {
-    if (list_.restart()) laser_.switch_now(true);
+    if (parts_.execution.restart()) parts_.laser.switch_now(true);
 }
 
 Result<void> Engine::goto_xy(double x, double y) {
@@ -52,22 +52,18 @@ Result<void> Engine::set_ext_start_delay(std::int32_t delay, int encoder) {
     if (encoder < 0 || encoder >= encoder_count)
         return fail(ErrorKind::refused,
                     fmt::format("set_ext_start_delay: encoder {} must be 0 or 1. Nothing was changed", encoder));
-    starts_.set_delay(delay, encoder);
+    parts_.starts.set_delay(delay, encoder);
     return {};
 }
 
-void Engine::encoder_sequence_error(int encoder) {
-    flags_.raise(encoder == 0 ? marking_bit("ENCODER_X_SEQUENCE") : marking_bit("ENCODER_Y_SEQUENCE"), state_.tick);
-}
-
 std::uint32_t Engine::startstop_info() const {
-    return flags_.startstop_info() | startstop_bit("NO_STOP_SIGNAL") |
+    return parts_.flags.startstop_info() | startstop_bit("NO_STOP_SIGNAL") |
            (state_.laser.disabled ? 0 : startstop_bit("LASER_ENABLED"));
 }
 
 std::uint32_t Engine::get_startstop_info() {
     const std::uint32_t out = startstop_info();
-    flags_.clear_startstop_info();
+    parts_.flags.clear_startstop_info();
     return out;
 }
 

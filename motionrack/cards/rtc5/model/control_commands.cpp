@@ -58,26 +58,20 @@ Answered done(const Result<void>& result) {
 Answered taken(Engine&, Numbers) {
     return ControlAnswer{};
 }
-/// A command that is one call of the card, without parameters or answer.
-template <void (Engine::*function)()>
-Answered plain(Engine& engine, Numbers) {
-    (engine.*function)();
-    return ControlAnswer{};
-}
 Answered header_word(const Engine& engine, std::int64_t table, double word_number) {
-    const Table* const loaded = engine.table(table);
+    const Table* const loaded = engine.parts().heads.table(table);
     return answer({loaded == nullptr ? 0 : loaded->header[static_cast<std::size_t>(word_number)]});
 }
 Answered set_delay_mode(Engine& engine, Numbers p) {
     Delays delays = engine.state().path.delays;
     delays.variable_polygon = p[0] != 0;
     delays.edge_level = wide(p[2]), delays.min_jump = wide(p[3]), delays.jump_limit = p[4];
-    return done(engine.set_delays(delays));
+    return done(engine.parts().path.set_delays(delays));
 }
 Answered set_extstartpos(Engine& engine, Numbers p) {
     MOTIONRACK_CHECK(
         check_parameter("set_extstartpos", "Pos", p[0], 0, static_cast<double>(engine.settings().list_memory - 1)));
-    engine.set_extstartpos(wide(p[0]));
+    engine.parts().starts.set_position(wide(p[0]));
     return ControlAnswer{};
 }
 Answered one(const Result<std::int32_t>& result) {
@@ -90,7 +84,7 @@ constexpr Refusal or_busy = Refusal::busy, or_rejected = Refusal::rejected, or_w
 
 constexpr ControlCommand commands[] = {
     {"select_cor_table", {{up_to("HeadA", table_count), up_to("HeadB", table_count)}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.select_cor_table(small(p[0]), small(p[1]))); },
+     [](Engine& e, Numbers p) { return done(e.parts().heads.select_tables(small(p[0]), small(p[1]))); },
      "the tables of both heads; 0: head A 1:1, head B without output", manual_124},
     {"get_table_para", {{{"TableNo", 1, table_count}, up_to("ParaNo", 15)}}, 1, false, false, or_wrong,
      [](Engine& e, Numbers p) { return header_word(e, wide(p[0]), p[1]); },
@@ -125,7 +119,7 @@ constexpr ControlCommand commands[] = {
      [](Engine& e, Numbers p) { return done(e.execute_list(word(p[0]), wide(p[1]))); },
      "starts a list at a position of it; refused while a list runs or the card moves", manual_70},
     {"execute_at_pointer", {{up_to("Pos", max_place)}}, 0, true, false, or_busy,
-     [](Engine& e, Numbers p) { return done(e.execute_at(wide(p[0]))); },
+     [](Engine& e, Numbers p) { return done(e.parts().execution.execute_at(wide(p[0]))); },
      "starts at a position over all lists; refused while a list runs or the card moves", manual_70},
     {"set_delay_mode",
      {{{"VarPoly"}, {"DirectMove3D"}, {"EdgeLevel", 0, 4294967295.0, "times 10 us"},
@@ -137,7 +131,7 @@ constexpr ControlCommand commands[] = {
      {{{"HeadNo", 1, 3}, {"GalvoGainX", -16, 16, "", false}, {"GalvoGainY", -16, 16, "", false},
        {"GalvoOffsetX", min_field, max_field, "bits"}, {"GalvoOffsetY", min_field, max_field, "bits"}}},
      0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.heads().set_hi(small(p[0]), {p[1], p[2]}, {p[3], p[4]})); },
+     [](Engine& e, Numbers p) { return done(e.parts().heads.set_hi(small(p[0]), {p[1], p[2]}, {p[3], p[4]})); },
      "gain and offset behind the table of head 1 (A), 2 (B), or both (3)", by_header},
     {"write_io_port", {{up_to("Value", 65535)}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) {
@@ -149,28 +143,28 @@ constexpr ControlCommand commands[] = {
      [](Engine& e, Numbers) { return answer({e.state().io}); }, "the 16 digital outputs", by_header},
 
     {"simulate_encoder", {{up_to("EncoderNo", 3)}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.simulate_encoder(small(p[0]))); },
+     [](Engine& e, Numbers p) { return done(e.parts().encoders.simulate(small(p[0]))); },
      "simulates encoder 0 (1), encoder 1 (2) or both (3) at 1000000 counts/s; 0 ends it", page_198},
     {"read_encoder", {}, 4, true, true, or_wrong,
      [](Engine& e, Numbers) {
-         const auto first = e.read_encoder(0), second = e.read_encoder(1);
+         const auto first = e.parts().encoders.stored(0), second = e.parts().encoders.stored(1);
          return answer({first[0], first[1], second[0], second[1]});
      },
      "counts that store_encoder kept: encoder 0 and 1 of Pos 0, then of Pos 1", by_header},
     {"set_rot_center", {{centre("X"), centre("Y")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.fly().set_rot_center({p[0], p[1]})); },
+     [](Engine& e, Numbers p) { return done(e.parts().fly.set_rot_center({p[0], p[1]})); },
      "centre of the rotary corrections", by_header},
     {"set_fly_tracking_error", {{up_to("TrackingErrorX", 65535, "times 10 us"),
       up_to("TrackingErrorY", 65535, "times 10 us")}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) {
-         e.set_tracking_error(static_cast<std::uint16_t>(p[0]), static_cast<std::uint16_t>(p[1]));
+         e.parts().encoders.set_tracking_error(static_cast<std::uint16_t>(p[0]), static_cast<std::uint16_t>(p[1]));
          return Answered(ControlAnswer{});
      },
      "lag of the mirrors; encoder counts are extrapolated by it", manual_428},
     {"init_fly_2d", {{{"OffsetX", min_32, max_32, "counts"}, {"OffsetY", min_32, max_32, "counts"}}}, 0,
      true, false, or_wrong,
      [](Engine& e, Numbers p) {
-         e.fly().zero_2d(small(p[0]), small(p[1]));
+         e.parts().fly.zero_2d(small(p[0]), small(p[1]));
          return Answered(ControlAnswer{});
      },
      "zeroes both encoders; these values are added to their counts in 2D corrections", manual_185},
@@ -179,17 +173,25 @@ constexpr ControlCommand commands[] = {
      "(OffsetX, OffsetY) of init_fly_2d, counts", manual_185},
     {"set_encoder_speed_ctrl", {{up_to("EncoderNo", 3), scale("Speed", "counts/ms"), {"Smooth", 0, 1, "", false}}}, 0,
      true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.set_encoder_speed(small(p[0]), p[1], p[2])); },
+     [](Engine& e, Numbers p) { return done(e.parts().encoders.watch_speed(small(p[0]), p[1], p[2])); },
      "target (taken as 100 to 16000 counts/ms) and smoothing of the speed of encoder 0, 1, or both (2, 3)", manual_419},
     {"set_ext_start_delay", {{{"Delay", min_32, max_32, "counts"}, up_to("EncoderNo", 1)}}, 0, true, false,
      or_wrong, [](Engine& e, Numbers p) { return done(e.set_ext_start_delay(small(p[0]), small(p[1]))); },
      "the track delay of external starts", manual_511},
     {"set_extstartpos", {{up_to("Pos", max_place)}}, 0, true, false, or_wrong, set_extstartpos,
      "where the list of an external start begins, over all lists", manual_511},
-    {"simulate_ext_start_ctrl", {}, 0, true, false, or_wrong, plain<&Engine::external_start>,
+    {"simulate_ext_start_ctrl", {}, 0, true, false, or_wrong,
+     [](Engine& e, Numbers) {
+         e.parts().starts.trigger();
+         return Answered(ControlAnswer{});
+     },
      "simulates a start signal", manual_511},
-    {"simulate_ext_stop", {}, 0, true, false, or_wrong, plain<&Engine::external_stop>, "simulates a stop signal",
-     by_header},
+    {"simulate_ext_stop", {}, 0, true, false, or_wrong,
+     [](Engine& e, Numbers) {
+         e.external_stop();
+         return Answered(ControlAnswer{});
+     },
+     "simulates a stop signal", by_header},
 
     {"mcbsp_init", {{up_to("XDelay", 2, "bits"), up_to("RDelay", 2, "bits")}}, 0, true, false, or_wrong, taken,
      "accepted without effect: the frame on the wire is not simulated", by_header},
@@ -198,37 +200,37 @@ constexpr ControlCommand commands[] = {
     {"set_mcbsp_freq", {{{"Freq", 1, 50'000'000, "Hz"}}}, 1, true, false, or_wrong,
      [](Engine&, Numbers p) { return answer({wide(p[0])}); },
      "returns Freq without effect: the frame on the wire is not simulated", by_header},
-    {"get_mcbsp", {}, 1, true, true, or_rejected, [](Engine& e, Numbers) { return one(e.mcbsp().store_now()); },
+    {"get_mcbsp", {}, 1, true, true, or_rejected, [](Engine& e, Numbers) { return one(e.parts().mcbsp.store_now()); },
      "the present word, signed, which goes to memory location 0 too; refused before the first word", by_header},
     {"read_mcbsp", {{up_to("No", 3)}}, 1, true, true, or_rejected,
-     [](Engine& e, Numbers p) { return one(e.mcbsp().read(small(p[0]))); },
+     [](Engine& e, Numbers p) { return one(e.parts().mcbsp.read(small(p[0]))); },
      "memory location No; refused while it is empty, with the command that fills it. Location 0 is filled "
      "from set_fly_x_pos (or _y_pos, _rot_pos, set_mcbsp_in) on. Of two axes X is the low half of the word and Y the "
      "high one, each of 16 bits with its sign. A scale is K / i, i = (end - start) / distance in bits/mm", page_198},
     {"read_multi_mcbsp", {{up_to("No", 7)}}, 1, true, true, or_wrong,
-     [](Engine& e, Numbers p) { return answer({e.mcbsp().typed(small(p[0]))}); },
+     [](Engine& e, Numbers p) { return answer({e.parts().mcbsp.typed(small(p[0]))}); },
      "the last value of a type, after set_multi_mcbsp_in", rtc6_703},
     {"set_mcbsp_in", {{up_to("Mode", 3), scale("Scale", "bits/bit")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_in(small(p[0]), p[1])); },
+     [](Engine& e, Numbers p) { return done(e.parts().fly.set_mcbsp_in(small(p[0]), p[1])); },
      "X (1), Y (2) or both (3) move with the McBSP word; 0 is off. Words go to location 0, and in Mode 1 to 1, in Mode "
      "2 to 2; in Mode 3 X goes to 1, Y to 2, the word to 3", page_198},
     {"set_multi_mcbsp_in", {{up_to("Ctrl", 255), {"P", 0, 4294967295.0, "/16384"},
       {"Mode", min_32, max_32}}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.fly().set_multi_mcbsp_in(small(p[0]), wide(p[1]), small(p[2]))); },
+     [](Engine& e, Numbers p) { return done(e.parts().fly.set_multi_mcbsp_in(small(p[0]), wide(p[1]), small(p[2]))); },
      "McBSP words carry their type: x, y, z, laser power and parameters; they go to the locations 0 to 3 in turn",
      rtc6_703},
     {"set_mcbsp_x", {{scale("ScaleX", "bits/bit")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_x(p[0])); },
+     [](Engine& e, Numbers p) { return done(e.parts().fly.set_mcbsp_x(p[0])); },
      "online positioning of X; 0 is off", manual_166},
     {"set_mcbsp_y", {{scale("ScaleY", "bits/bit")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_y(p[0])); },
+     [](Engine& e, Numbers p) { return done(e.parts().fly.set_mcbsp_y(p[0])); },
      "online positioning of Y; 0 is off", manual_166},
     {"set_mcbsp_rot", {{scale("Resolution", "bits a turn")}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.fly().set_mcbsp_rot(p[0])); },
+     [](Engine& e, Numbers p) { return done(e.parts().fly.set_mcbsp_rot(p[0])); },
      "online positioning of the angle; under 100 is off", manual_166},
     {"set_mcbsp_matrix", {}, 0, true, false, or_wrong,
      [](Engine& e, Numbers) {
-         e.fly().set_mcbsp_matrix();
+         e.parts().fly.set_mcbsp_matrix();
          return Answered(ControlAnswer{});
      },
      "online positioning of matrix coefficients", manual_166},
@@ -236,18 +238,18 @@ constexpr ControlCommand commands[] = {
      [](Engine& e, Numbers p) { return done(e.apply_mcbsp(small(p[0]), small(p[1]))); },
      "applies the online positioning to a head; at_once 2: with the next jump", manual_166},
     {"set_mcbsp_out", {{up_to("Signal1", 255), up_to("Signal2", 255)}}, 0, true, false, or_wrong,
-     [](Engine& e, Numbers p) { return done(e.recorder().send(std::array{word(p[0]), word(p[1])})); },
+     [](Engine& e, Numbers p) { return done(e.parts().recorder.send(std::array{word(p[0]), word(p[1])})); },
      "sends two signals of get_value in turn, one word in 10 us", by_header},
 
     {"measurement_status", {}, 2, true, true, or_wrong,
      [](Engine& e, Numbers) {
-         const Recording& r = e.recorder().recording();
+         const Recording& r = e.parts().recorder.recording();
          return answer({r.period != 0 ? 1 : 0, r.count - 1});
      },
      "(Busy, Pos): whether set_trigger records; Pos + 1 samples are there, none: -1", by_header},
     {"stop_trigger", {}, 0, true, false, or_wrong,
      [](Engine& e, Numbers) {
-         e.recorder().stop();
+         e.parts().recorder.stop();
          return Answered(ControlAnswer{});
      },
      "ends a recording; its samples stay", by_header},

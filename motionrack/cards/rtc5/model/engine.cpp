@@ -12,13 +12,14 @@ Engine::Engine(const Settings& settings) : settings_(settings) {
 void Engine::run_until(std::int64_t tick, Sink* sink) {
     connections_.sink = sink;
     while (state_.tick < tick) piece(tick, sink);
-    pipeline_.evaluate();
+    parts_.pipeline.evaluate();
     connections_.sink = nullptr;
 }
 
 bool Engine::at_rest() const {
     const Lists& l = state_.lists;
-    return l.running == 0 && state_.activity.kind == ActivityKind::none && starts_.at_rest() && state_.laser.count == 0;
+    return l.running == 0 && state_.activity.kind == ActivityKind::none && parts_.starts.at_rest() &&
+           state_.laser.count == 0;
 }
 
 bool Engine::run_to_rest(std::int64_t ticks, Sink* sink) {
@@ -27,7 +28,7 @@ bool Engine::run_to_rest(std::int64_t ticks, Sink* sink) {
     until_rest_ = true;
     while (state_.tick < end && !at_rest()) piece(end, sink);
     until_rest_ = false;
-    pipeline_.evaluate();
+    parts_.pipeline.evaluate();
     connections_.sink = nullptr;
     return at_rest();
 }
@@ -35,22 +36,22 @@ bool Engine::run_to_rest(std::int64_t ticks, Sink* sink) {
 void Engine::begin_tick() {
     if (state_.sampled == state_.tick) return;
     state_.sampled = state_.tick;
-    laser_.begin_tick();
-    encoders_.sample();
-    mcbsp_.sample();
-    starts_.take();
+    parts_.laser.begin_tick();
+    parts_.encoders.sample();
+    parts_.mcbsp.sample();
+    parts_.starts.take();
 }
 
 /// At least a tick, at most to `end`.
 void Engine::piece(std::int64_t end, Sink* sink) {
     begin_tick();
     std::int64_t limit = end - state_.tick;
-    if (starts_.waiting()) limit = starts_.ticks_to_start(limit);
-    limit = std::min(limit, std::max<std::int64_t>(1, recorder_.ticks_to_sample()));
-    if (sink == nullptr && recorder_.ticks_to_sample() > 0 && skip(limit)) return;
+    if (parts_.starts.waiting()) limit = parts_.starts.ticks_to_start(limit);
+    limit = std::min(limit, std::max<std::int64_t>(1, parts_.recorder.ticks_to_sample()));
+    if (sink == nullptr && parts_.recorder.ticks_to_sample() > 0 && skip(limit)) return;
     const std::size_t n = produce(static_cast<std::size_t>(std::min<std::int64_t>(limit, block)));
-    laser_.run_until(state_.tick + static_cast<std::int64_t>(n));
-    pipeline_.run(n, sink);
+    parts_.laser.run_until(state_.tick + static_cast<std::int64_t>(n));
+    parts_.pipeline.run(n, sink);
     advance(static_cast<std::int64_t>(n));
 }
 
@@ -61,14 +62,14 @@ std::size_t Engine::produce(std::size_t capacity) {
         n = interpreter_.micro_vectors(n, capacity);
         if (n == capacity) break;
         if (state_.lists.paused) {
-            path_.stay(n, capacity);
+            parts_.path.stay(n, capacity);
             return capacity;
         }
         if (!interpreter_.next_step(n)) break;
-        if (n == 0 && (starts_.asked() || recorder_.samples_now())) capacity = 1;
+        if (n == 0 && (parts_.starts.asked() || parts_.recorder.samples_now())) capacity = 1;
         // The last tick is executed even without observers.
         if (state_.activity.kind == ActivityKind::none && until_rest_) capacity = n + 1;
-        n = path_.fill(n, capacity);
+        n = parts_.path.fill(n, capacity);
     }
     return n;
 }
@@ -78,14 +79,15 @@ std::size_t Engine::produce(std::size_t capacity) {
 bool Engine::skip(std::int64_t limit) {
     State& s = state_;
     if (!s.lists.paused) interpreter_.next_step(0);
-    if (encoders_.speed_watched() || mcbsp_.words_have_types() || recorder_.samples_now() || wobbel_.active())
+    if (parts_.encoders.speed_watched() || parts_.mcbsp.words_have_types() || parts_.recorder.samples_now() ||
+        parts_.wobbel.active())
         return false;
-    if (starts_.asked()) limit = 1;
+    if (parts_.starts.asked()) limit = 1;
     Activity& a = s.activity;
     const bool still = s.lists.paused || a.kind == ActivityKind::none || a.kind == ActivityKind::hold;
     const bool moves = !s.lists.paused && (a.kind == ActivityKind::line || a.kind == ActivityKind::arc);
     if (connections_.inputs != nullptr) {
-        if (fly_.on() || (!still && !moves)) return false;
+        if (parts_.fly.on() || (!still && !moves)) return false;
         limit = std::min<std::int64_t>(limit, 1 << 20);
     }
     std::int64_t n = limit;
@@ -93,40 +95,40 @@ bool Engine::skip(std::int64_t limit) {
     if (!s.lists.paused && a.kind == ActivityKind::none && until_rest_) n = 1;
     if (moves || (a.kind == ActivityKind::hold && !s.lists.paused)) n = std::min(limit, a.steps - a.done);
     if (!still && !moves) {
-        n = wait_.steady_ticks(over);
+        n = parts_.wait.steady_ticks(over);
         if (n < 0) return false;
         if (n > limit) n = limit, over = false;
     }
     PlanExtent extent;
-    if (fly_.on()) {
-        const bool known = heads_.global().neutral && connections_.inputs == nullptr;
+    if (parts_.fly.on()) {
+        const bool known = parts_.heads.global().neutral && connections_.inputs == nullptr;
         const bool line = a.kind == ActivityKind::line && !s.lists.paused;
-        const auto steady = known ? fly_.steady_extent(a, line, s.p, n) : std::nullopt;
+        const auto steady = known ? parts_.fly.steady_extent(a, line, s.p, n) : std::nullopt;
         if (!steady) return false;
         extent = *steady;
     }
-    laser_.run_until(s.tick + n);
-    wobbel_.clear_offset();
+    parts_.laser.run_until(s.tick + n);
+    parts_.wobbel.clear_offset();
     if (moves) s.p = a.position(a.done + n, s.p);
     if (moves || (a.kind == ActivityKind::hold && !s.lists.paused)) a.done += n;
     if (over) a.done = a.steps;
-    pipeline_.skip(extent);
+    parts_.pipeline.skip(extent);
     advance(n);
     return true;
 }
 
 /// Advances the state by n ticks.
 void Engine::advance(std::int64_t n) {
-    encoders_.advance(n);
-    mcbsp_.advance(n);
+    parts_.encoders.advance(n);
+    parts_.mcbsp.advance(n);
     state_.tick += n;
     state_.sampled = state_.tick - 1;
 }
 
 void Engine::copy_beside_state(const Engine& other) {
-    heads_.copy_tables(other.heads_);
-    fly_.copy_table(other.fly_);
-    recorder_.copy_samples(other.recorder_);
+    parts_.heads.copy_tables(other.parts_.heads);
+    parts_.fly.copy_table(other.parts_.fly);
+    parts_.recorder.copy_samples(other.parts_.recorder);
 }
 
 }  // namespace motionrack::rtc5

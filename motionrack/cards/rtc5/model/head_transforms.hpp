@@ -29,7 +29,9 @@ class HeadTransforms {
     /// set_matrix_list and the like
     void take(const Command& c);
     Result<void> set_hi(int head, Point gain, Point offset);
+    /// Loads table 1 to 4; nullptr: 1:1.
     Result<void> load_table(std::shared_ptr<const Table> table, int number);
+    /// Selects the tables of head A and B, 0 .. 4; 0: A: 1:1, B: no output.
     Result<void> select_tables(int head_a, int head_b);
 
     // ---- tables, which are not part of the state

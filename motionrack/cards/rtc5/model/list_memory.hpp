@@ -27,7 +27,11 @@ class ListMemory {
     /// list2 of -1: the remaining memory.
     Result<void> configure(std::int64_t list1, std::int64_t list2);
     Result<void> set_start_list(std::uint32_t list, std::int64_t position = 0);
+    /// As set_start_list for a list that is not running: 1, 2, a free one (0), or a free one that ran to its end (3).
+    /// Returns the opened list; 0: none, and put() is refused until a list is opened.
     Result<std::uint32_t> load_list(std::uint32_t list, std::int64_t position);
+    /// Stores the commands up to list_return as subroutine `index` (0 .. 1023) in list 3; without commands the
+    /// subroutine is deleted.
     Result<void> load_sub(std::uint32_t index);
     Result<void> put(const Command& command);
     /// Memory position of `position` in list 1 (odd numbers) or 2 (even numbers).

@@ -35,7 +35,8 @@ class OutputPipeline {
     /// Computes the output of the last tick if it was skipped.
     void evaluate();
     const HeadOutput& output() const { return output_; }
-    /// Extent of the corrected position while a correction was on, since clear_extent.
+    /// Extent of the corrected position (before clipping) while a correction was on, since clear_extent: the margin of
+    /// a job in the field. Not part of the state.
     const PlanExtent& extent() const { return extent_; }
     void clear_extent() { extent_ = {}; }
 

@@ -15,6 +15,10 @@ class StatusFlags {
 
     /// Sets bits of the marking info; keeps the tick of those that were clear.
     void raise(std::uint32_t bits, std::int64_t tick);
+    /// Both lines of an encoder changed in this tick.
+    void raise_sequence_error(int encoder, std::int64_t tick) {
+        raise(encoder == 0 ? marking_bit("ENCODER_X_SEQUENCE") : marking_bit("ENCODER_Y_SEQUENCE"), tick);
+    }
     void raise_startstop(std::uint32_t bits) { flags_.startstop_info |= bits; }
     /// Raises the flags of the corrected positions x and y of a block, from tick `first` on, with this extent.
     void check(const BlockBuffers& b, const PlanExtent& extent, std::int64_t first);

@@ -82,36 +82,36 @@ void control_lists(std::uint32_t what, Engine& c, std::uint32_t word, std::uint3
     if (what == 3) c.restart_list();
     if (what == 11) c.set_control_mode(word);
     if (what == 12) static_cast<void>(c.set_ext_start_delay(static_cast<std::int32_t>(word) - 30000, small));
-    if (what == 13) c.external_start();
-    if (what == 14) c.mcbsp().receive(word << 16 | other);
-    if (what == 15) c.set_count(small & 1, static_cast<std::int32_t>(word << 16 | other));
-    if (what == 16) c.auto_change();
-    if (what == 17) word % 2 ? c.start_loop() : c.quit_loop();
-    if (what == 18) static_cast<void>(c.fly().set_mcbsp_in(small, a));
-    if (what == 19) static_cast<void>(c.load_list(word, other % 120));
-    if (what == 20) static_cast<void>(c.load_sub(word % 1200));
+    if (what == 13) c.parts().starts.trigger();
+    if (what == 14) c.parts().mcbsp.receive(word << 16 | other);
+    if (what == 15) c.parts().encoders.set_count(small & 1, static_cast<std::int32_t>(word << 16 | other));
+    if (what == 16) c.parts().execution.auto_change();
+    if (what == 17) word % 2 ? c.parts().execution.start_loop() : c.parts().execution.quit_loop();
+    if (what == 18) static_cast<void>(c.parts().fly.set_mcbsp_in(small, a));
+    if (what == 19) static_cast<void>(c.parts().lists.load_list(word, other % 120));
+    if (what == 20) static_cast<void>(c.parts().lists.load_sub(word % 1200));
     if (what == 25) static_cast<void>(c.set_start_list(static_cast<std::uint32_t>(small), other % 120));
 }
 
 void control_outputs(std::uint32_t what, Engine& c, std::uint32_t word, std::uint32_t other, double a, double b) {
     const int small = small_of(word);
     if (what == 4) static_cast<void>(c.goto_xy(a, b));
-    if (what == 5) static_cast<void>(c.heads().set_matrix(small, {a, b, 1, 0}, small));
-    if (what == 6) static_cast<void>(c.heads().set_offset(small, {a, b}, small));
-    if (what == 7) static_cast<void>(c.heads().set_hi(small, {a, 1}, {b, 0}));
-    if (what == 8) static_cast<void>(c.fly().set_rot_center({a, b}));
-    if (what == 9) static_cast<void>(c.simulate_encoder(small));
-    if (what == 10) c.set_tracking_error(static_cast<std::uint16_t>(word), 0);
-    if (what == 21) word % 2 ? c.disable_laser() : c.enable_laser();
+    if (what == 5) static_cast<void>(c.parts().heads.set_matrix(small, {a, b, 1, 0}, small));
+    if (what == 6) static_cast<void>(c.parts().heads.set_offset(small, {a, b}, small));
+    if (what == 7) static_cast<void>(c.parts().heads.set_hi(small, {a, 1}, {b, 0}));
+    if (what == 8) static_cast<void>(c.parts().fly.set_rot_center({a, b}));
+    if (what == 9) static_cast<void>(c.parts().encoders.simulate(small));
+    if (what == 10) c.parts().encoders.set_tracking_error(static_cast<std::uint16_t>(word), 0);
+    if (what == 21) word % 2 ? c.parts().laser.disable() : c.parts().laser.enable();
     if (what == 22) {
-        static_cast<void>(c.recorder().send(std::array<std::uint32_t, 2>{word % 48, other % 48}));
-        static_cast<void>(c.recorder().sent());
+        static_cast<void>(c.parts().recorder.send(std::array<std::uint32_t, 2>{word % 48, other % 48}));
+        static_cast<void>(c.parts().recorder.sent());
     }
     if (what == 23) {
-        static_cast<void>(c.recorder().value(word % 60));
-        static_cast<void>(c.mcbsp().store_now());
+        static_cast<void>(c.parts().recorder.value(word % 60));
+        static_cast<void>(c.parts().mcbsp.store_now());
     }
-    if (what == 24) static_cast<void>(word % 2 ? c.fly().set_mcbsp_x(a) : c.fly().set_mcbsp_rot(b));
+    if (what == 24) static_cast<void>(word % 2 ? c.parts().fly.set_mcbsp_x(a) : c.parts().fly.set_mcbsp_rot(b));
 }
 
 void control_something(Feed& feed, Engine* const (&cards)[2]) {
@@ -137,12 +137,13 @@ void files(Feed& feed, Engine* const (&cards)[2], Verdict& verdict) {
     if (feed.below(8) == 0) bytes.resize(feed.word());
     if (const auto file = read_ct5(bytes, "fuzz.ct5"))
         for (Engine* c : cards)
-            static_cast<void>(c->load_correction(table_of(*file), 1)), static_cast<void>(c->select_cor_table(1, 0));
+            static_cast<void>(c->parts().heads.load_table(table_of(*file), 1)),
+                static_cast<void>(c->parts().heads.select_tables(1, 0));
     std::string text = "[Fly2DTable1]\n0 0 0 0\n10 0 1 1\n0 10 2 2\n10 10 3 3\n";
     for (std::uint32_t i = feed.below(4); i > 0; --i)
         text[feed.below(static_cast<std::uint32_t>(text.size()))] = static_cast<char>(feed.word());
     if (const auto table = FlyTable::read(text, 1, "fuzz.txt"))
-        for (Engine* c : cards) c->fly().load_table(std::make_shared<const FlyTable>(*table));
+        for (Engine* c : cards) c->parts().fly.load_table(std::make_shared<const FlyTable>(*table));
     ++verdict.files;
 }
 

@@ -98,18 +98,18 @@ TEST(Rtc5Card, EncoderLinesCountFourfoldAndBothAtOnceAreAnError) {
     kernel.force(b, 0);
     kernel.run_until(kernel.now() + microseconds(20));
     EXPECT_EQ(card.engine().encoder(1), 10);
-    EXPECT_EQ(card.engine().get_marking_info(), marking_bit("ENCODER_Y_SEQUENCE"));
+    EXPECT_EQ(card.engine().parts().flags.take_marking_info(), marking_bit("ENCODER_Y_SEQUENCE"));
 }
 
 TEST(Rtc5Card, AWordOnTheMcbspIsReadInTheNextTick) {
     sim::Kernel kernel;
     Card card(kernel, "scan", small);
     kernel.start();
-    ASSERT_TRUE(card.engine().fly().set_mcbsp_in(1, 1));
+    ASSERT_TRUE(card.engine().parts().fly.set_mcbsp_in(1, 1));
     kernel.force(kernel.find_wire("scan.mcbsp"), -70);
     kernel.run_until(microseconds(10));
     EXPECT_EQ(card.engine().output().a[0], -70);
-    EXPECT_EQ(card.engine().mcbsp().read(1), -70);
+    EXPECT_EQ(card.engine().parts().mcbsp.read(1), -70);
 }
 
 TEST(Rtc5Card, StartAndStopLinesWorkAndALostStartIsReported) {
@@ -143,7 +143,7 @@ TEST(Rtc5Card, ARestoredSnapshotContinuesIdenticallyAndRunsDoNotAllocate) {
     Listener listener(kernel, {"scan.xout", "scan.laser_on"});
     kernel.start();
     listener.want(kernel);
-    ASSERT_TRUE(card.engine().simulate_encoder(1));
+    ASSERT_TRUE(card.engine().parts().encoders.simulate(1));
     load(card.engine(), {*list_command(Op::set_fly_x, {1}), *list_command(Op::mark_abs, {5000, 100}),
                          *list_command(Op::jump_abs, {0, 0}), *list_command(Op::mark_abs, {300, 2000}),
                          *list_command(Op::set_end_of_list, {})});

@@ -38,8 +38,8 @@ TEST(Rtc5Correction, ALensAndItsInverseAreExact) {
 
 TEST(Rtc5Correction, ATableMadeFromALensPutsTheSpotAtTheProgrammedPosition) {
     Rig rig;
-    ASSERT_TRUE(rig.card.load_correction(table_of(*correction_of(d2_721)), 1));
-    ASSERT_TRUE(rig.card.select_cor_table(1, 0));
+    ASSERT_TRUE(rig.card.parts().heads.load_table(table_of(*correction_of(d2_721)), 1));
+    ASSERT_TRUE(rig.card.parts().heads.select_tables(1, 0));
     rig.put(Op::micro_vector_abs, {311'111, -222'222, -1, -1});
     rig.go();
     const sim::Spot spot = sim::spot_of(d2_721, {static_cast<double>(rig.last_x()), static_cast<double>(rig.last_y())});
@@ -179,8 +179,8 @@ TEST(Rtc5Correction, TablesMadeFromLensesCanBeInverted) {
 
 TEST(Rtc5Correction, TheGeneratedOneToOneTableIsOneToOneInItsLastCell) {
     Rig rig;
-    ASSERT_TRUE(rig.card.load_correction(table_of(one_to_one()), 1));
-    ASSERT_TRUE(rig.card.select_cor_table(1, 0));
+    ASSERT_TRUE(rig.card.parts().heads.load_table(table_of(one_to_one()), 1));
+    ASSERT_TRUE(rig.card.parts().heads.select_tables(1, 0));
     for (const double x :
          {-524'288.0, -520'193.0, 0.0, 520'191.0, 520'192.0, 520'193.0, 522'240.0, 524'286.0, 524'287.0}) {
         rig.begin();

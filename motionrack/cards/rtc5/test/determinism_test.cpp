@@ -32,12 +32,12 @@ TEST(Rtc5Card, SamplesAndStatesHaveTheSameBitsOnEveryCompiler) {
     for (std::uint64_t seed = 777; seed < 877; ++seed) {
         const Job job = JobMaker(seed).make();
         Engine card({1700, 800, 800});
-        ASSERT_TRUE(card.load_correction(table, 1));
-        ASSERT_TRUE(card.select_cor_table(1, 0));
-        ASSERT_TRUE(card.simulate_encoder(3));
+        ASSERT_TRUE(card.parts().heads.load_table(table, 1));
+        ASSERT_TRUE(card.parts().heads.select_tables(1, 0));
+        ASSERT_TRUE(card.parts().encoders.simulate(3));
         for (const Command& c : job.list1)
             if (!card.put(c)) break;
-        card.start_loop();
+        card.parts().execution.start_loop();
         ASSERT_TRUE(card.execute_list(1));
         card.run_until(20'000, &mixer);
         std::array<unsigned char, sizeof(State)> bytes{};

@@ -42,7 +42,7 @@ TEST(Rtc5Fly, AnEncoderOf2000CountsAMillimetreMovesTheOutputByAMicrometreATick) 
 
 TEST(Rtc5Fly, TheSimulatedEncoderCountsAMillionASecond) {
     Rig rig;
-    ASSERT_TRUE(rig.card.simulate_encoder(3));
+    ASSERT_TRUE(rig.card.parts().encoders.simulate(3));
     rig.put(Op::set_fly_x, {fly_k * 100 / 1e6});
     rig.put(Op::long_delay, {9'999});
     rig.go();
@@ -52,8 +52,8 @@ TEST(Rtc5Fly, TheSimulatedEncoderCountsAMillionASecond) {
 
 TEST(Rtc5Fly, SetFlyZeroesItsOwnEncoderOnlyAndScaleZeroTurnsOff) {
     Rig rig;
-    rig.card.set_count(0, 700);
-    rig.card.set_count(1, 900);
+    rig.card.parts().encoders.set_count(0, 700);
+    rig.card.parts().encoders.set_count(1, 900);
     rig.run(1);
     rig.put(Op::set_fly_x, {1});
     rig.put(Op::set_fly_x, {0});
@@ -68,10 +68,10 @@ TEST(Rtc5Fly, AMcBspWordIsA32BitPositionForOneAxis) {
         Rig rig;
         rig.put(Op::set_fly_x_pos, {5.184});
         rig.put(Op::list_nop);
-        rig.card.mcbsp().receive(word);
+        rig.card.parts().mcbsp.receive(word);
         rig.go();
         EXPECT_EQ(rig.last_x(), x);
-        EXPECT_EQ(rig.card.mcbsp().read(0), static_cast<std::int32_t>(word));
+        EXPECT_EQ(rig.card.parts().mcbsp.read(0), static_cast<std::int32_t>(word));
     }
 }
 
@@ -86,7 +86,7 @@ TEST(Rtc5Fly, AMcBspWordIsTwo16BitPositionsForTwoAxes) {
         rig.put(Op::set_fly_x_pos, {51.84});
         rig.put(Op::set_fly_y_pos, {51.84});
         rig.put(Op::list_nop);
-        rig.card.mcbsp().receive(c.word);
+        rig.card.parts().mcbsp.receive(c.word);
         rig.go();
         EXPECT_DOUBLE_EQ(rig.card.output().corrected.x, c.x);
         EXPECT_DOUBLE_EQ(rig.card.output().corrected.y, c.y);
@@ -96,21 +96,21 @@ TEST(Rtc5Fly, AMcBspWordIsTwo16BitPositionsForTwoAxes) {
 TEST(Rtc5Fly, TwoReadingsOfTheMcBspGiveTheScale) {
     Rig rig;
     rig.put(Op::set_fly_x_pos, {1});
-    rig.card.mcbsp().receive(1000);
+    rig.card.parts().mcbsp.receive(1000);
     rig.go();
-    const std::int32_t before = rig.card.mcbsp().read(0).value();
-    rig.card.mcbsp().receive(51'000);
+    const std::int32_t before = rig.card.parts().mcbsp.read(0).value();
+    rig.card.parts().mcbsp.receive(51'000);
     rig.run(1);
-    const double increment = (rig.card.mcbsp().read(0).value() - before) / 50.0;
+    const double increment = (rig.card.parts().mcbsp.read(0).value() - before) / 50.0;
     EXPECT_DOUBLE_EQ(increment, 1000);
     EXPECT_DOUBLE_EQ(fly_k / increment, 5.184);
 }
 
 TEST(Rtc5Fly, LocationZeroIsWrittenAfterFlyReturnAndAfterAReset) {
     Rig rig;
-    rig.card.mcbsp().receive(5);
+    rig.card.parts().mcbsp.receive(5);
     rig.run(1);
-    const auto unread = rig.card.mcbsp().read(0);
+    const auto unread = rig.card.parts().mcbsp.read(0);
     ASSERT_FALSE(unread);
     EXPECT_EQ(unread.error().message,
               "read_mcbsp: location 0 is empty; first use "
@@ -119,64 +119,64 @@ TEST(Rtc5Fly, LocationZeroIsWrittenAfterFlyReturnAndAfterAReset) {
     rig.put(Op::set_fly_x_pos, {1});
     rig.put(Op::fly_return, {0, 0});
     rig.go();
-    rig.card.mcbsp().receive(77);
+    rig.card.parts().mcbsp.receive(77);
     rig.run(1);
-    EXPECT_EQ(rig.card.mcbsp().read(0), 77);
+    EXPECT_EQ(rig.card.parts().mcbsp.read(0), 77);
     rig.card.load_program_file();
-    rig.card.mcbsp().receive(78);
+    rig.card.parts().mcbsp.receive(78);
     rig.run(1);
-    EXPECT_EQ(rig.card.mcbsp().read(0), 78);
+    EXPECT_EQ(rig.card.parts().mcbsp.read(0), 78);
     EXPECT_FALSE(rig.card.state().fly.on());
 }
 
 TEST(Rtc5Fly, SetMcbspInUsesAllLocationsAndMultiWritesRoundRobin) {
     Rig rig;
-    ASSERT_TRUE(rig.card.fly().set_mcbsp_in(3, 1));
+    ASSERT_TRUE(rig.card.parts().fly.set_mcbsp_in(3, 1));
     for (int location = 0; location < 4; ++location)
-        EXPECT_EQ(rig.card.mcbsp().read(location).error().message,
+        EXPECT_EQ(rig.card.parts().mcbsp.read(location).error().message,
                   "read_mcbsp: no word was received over McBSP yet; let the sender send one first");
-    rig.card.mcbsp().receive(0xFFFE0003);
+    rig.card.parts().mcbsp.receive(0xFFFE0003);
     rig.run(1);
-    EXPECT_EQ(rig.card.mcbsp().read(0), static_cast<std::int32_t>(0xFFFE0003)) << "there as well";
-    EXPECT_EQ(rig.card.mcbsp().read(1), 3);
-    EXPECT_EQ(rig.card.mcbsp().read(2), -2);
-    EXPECT_EQ(rig.card.mcbsp().read(3), static_cast<std::int32_t>(0xFFFE0003));
-    ASSERT_TRUE(rig.card.fly().set_multi_mcbsp_in(0, 8192, 1));
-    rig.card.mcbsp().receive(1000u << 3 | 3);
-    rig.card.mcbsp().receive(100u << 3 | 0);
-    rig.card.mcbsp().receive(static_cast<std::uint32_t>(-50) << 3 | 1);
+    EXPECT_EQ(rig.card.parts().mcbsp.read(0), static_cast<std::int32_t>(0xFFFE0003)) << "there as well";
+    EXPECT_EQ(rig.card.parts().mcbsp.read(1), 3);
+    EXPECT_EQ(rig.card.parts().mcbsp.read(2), -2);
+    EXPECT_EQ(rig.card.parts().mcbsp.read(3), static_cast<std::int32_t>(0xFFFE0003));
+    ASSERT_TRUE(rig.card.parts().fly.set_multi_mcbsp_in(0, 8192, 1));
+    rig.card.parts().mcbsp.receive(1000u << 3 | 3);
+    rig.card.parts().mcbsp.receive(100u << 3 | 0);
+    rig.card.parts().mcbsp.receive(static_cast<std::uint32_t>(-50) << 3 | 1);
     rig.run(1);
     EXPECT_EQ(rig.last_x(), 100);
     EXPECT_EQ(rig.last_y(), -50);
-    EXPECT_EQ(rig.card.mcbsp().read(1), 800);
-    EXPECT_EQ(rig.card.mcbsp().read(2), -399);
-    EXPECT_EQ(rig.card.mcbsp().power(), 500);
-    EXPECT_EQ(rig.card.mcbsp().typed(1), -50);
+    EXPECT_EQ(rig.card.parts().mcbsp.read(1), 800);
+    EXPECT_EQ(rig.card.parts().mcbsp.read(2), -399);
+    EXPECT_EQ(rig.card.parts().mcbsp.power(), 500);
+    EXPECT_EQ(rig.card.parts().mcbsp.typed(1), -50);
 }
 
 TEST(Rtc5Fly, OnlinePositioningUsesLocations1And2AndMovesWhenApplied) {
     Rig rig;
-    ASSERT_TRUE(rig.card.fly().set_mcbsp_online(2, 3, 0));
-    rig.card.mcbsp().receive(0xFFFE0003);
+    ASSERT_TRUE(rig.card.parts().fly.set_mcbsp_online(2, 3, 0));
+    rig.card.parts().mcbsp.receive(0xFFFE0003);
     rig.run(1);
     EXPECT_EQ(rig.last_x(), 0);
-    EXPECT_EQ(rig.card.mcbsp().read(1), static_cast<std::int32_t>(0xFFFE0003));
+    EXPECT_EQ(rig.card.parts().mcbsp.read(1), static_cast<std::int32_t>(0xFFFE0003));
     ASSERT_TRUE(rig.card.apply_mcbsp(1, 1));
     rig.run(1);
     EXPECT_EQ(rig.last_x(), 6);
     EXPECT_EQ(rig.last_y(), -6);
-    for (const int location : {0, 2, 3}) EXPECT_FALSE(rig.card.mcbsp().read(location)) << location;
-    ASSERT_TRUE(rig.card.fly().set_mcbsp_online(1, 0, 3600));
-    rig.card.mcbsp().receive(1000);
-    rig.card.mcbsp().receive(0x80000000u | 900);
+    for (const int location : {0, 2, 3}) EXPECT_FALSE(rig.card.parts().mcbsp.read(location)) << location;
+    ASSERT_TRUE(rig.card.parts().fly.set_mcbsp_online(1, 0, 3600));
+    rig.card.parts().mcbsp.receive(1000);
+    rig.card.parts().mcbsp.receive(0x80000000u | 900);
     rig.run(1);
-    rig.card.mcbsp().receive(1000);
+    rig.card.parts().mcbsp.receive(1000);
     rig.run(1);
     ASSERT_TRUE(rig.card.apply_mcbsp(1, 1));
     EXPECT_DOUBLE_EQ(rig.card.state().transforms.heads[0].transform.angle_deg, 90);
     EXPECT_EQ(rig.card.state().transforms.heads[0].transform.offset.x, 1000);
-    rig.card.fly().set_mcbsp_matrix();
-    rig.card.mcbsp().receive(static_cast<std::uint32_t>(-(1 << 23)) << 2 | 2);  // M21 = -0.5
+    rig.card.parts().fly.set_mcbsp_matrix();
+    rig.card.parts().mcbsp.receive(static_cast<std::uint32_t>(-(1 << 23)) << 2 | 2);  // M21 = -0.5
     rig.run(1);
     ASSERT_TRUE(rig.card.apply_mcbsp(4, 1));
     EXPECT_EQ(rig.card.state().transforms.global.matrix[2], -0.5);
@@ -191,16 +191,16 @@ TEST(Rtc5Fly, TheRotaryCorrectionTurnsCounterClockwiseAboutItsCentre) {
     };
     for (const Case& c : {Case{300, -6.6987, 25, 0}, Case{900, -50, 50, 0b1001}, Case{-900, -50, -50, 0b0101}}) {
         Rig rig;
-        ASSERT_TRUE(rig.card.fly().set_rot_center({std::floor(-50 * bits), 0}));
+        ASSERT_TRUE(rig.card.parts().fly.set_rot_center({std::floor(-50 * bits), 0}));
         rig.put(Op::set_fly_rot, {3600});
         rig.put(Op::list_nop);
         rig.go();
-        rig.card.set_count(0, c.count);
+        rig.card.parts().encoders.set_count(0, c.count);
         rig.run(1);
         EXPECT_NEAR(rig.card.output().corrected.x / bits, c.x_mm, 1e-4);
         EXPECT_NEAR(rig.card.output().corrected.y / bits, c.y_mm, 1e-4);
-        EXPECT_EQ(rig.card.get_marking_info(), c.flags);
-        EXPECT_EQ(rig.card.get_marking_info(), 0u);
+        EXPECT_EQ(rig.card.parts().flags.take_marking_info(), c.flags);
+        EXPECT_EQ(rig.card.parts().flags.take_marking_info(), 0u);
     }
 }
 
@@ -209,7 +209,7 @@ TEST(Rtc5Fly, TheTrackingErrorExtrapolatesTheCount) {
     Belt belt;
     belt.per_tick = 2;
     rig.card.set_inputs(&belt);
-    rig.card.set_tracking_error(15, 0);
+    rig.card.parts().encoders.set_tracking_error(15, 0);
     rig.put(Op::set_fly_x, {1});
     rig.put(Op::long_delay, {50});
     rig.go();
@@ -220,7 +220,7 @@ TEST(Rtc5Fly, TheTrackingErrorExtrapolatesTheCount) {
 
 TEST(Rtc5Fly, AMissedWaitLastsTwoToThe31Counts) {
     Rig rig;
-    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    ASSERT_TRUE(rig.card.parts().encoders.simulate(1));
     rig.run(100);
     rig.put(Op::wait_for_encoder, {1000, 0});
     rig.put(Op::set_end_of_list);
@@ -235,7 +235,7 @@ TEST(Rtc5Fly, ASquareOnABeltIsASquareOnThePart) {
                  corners_on[5][2] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}};
     for (const bool fly : {false, true}) {
         Rig rig;
-        ASSERT_TRUE(rig.card.simulate_encoder(1));
+        ASSERT_TRUE(rig.card.parts().encoders.simulate(1));
         rig.put(Op::set_fly_x, {fly ? fly_k * 100 / 1e6 : 0});
         rig.put(Op::set_mark_speed, {2592});
         for (const auto& [x, y] : {std::pair{10, 0}, std::pair{10, 10}, std::pair{0, 10}, std::pair{0, 0}})
@@ -265,38 +265,38 @@ TEST(Rtc5Fly, ConditionalCommandsReadTheLimitFlagsAndClearThem) {
     rig.go();
     EXPECT_EQ(rig.card.state().io, 2);
     EXPECT_EQ(rig.last_x(), 5);
-    EXPECT_EQ(rig.card.get_marking_info(), 0u);
+    EXPECT_EQ(rig.card.parts().flags.take_marking_info(), 0u);
 }
 
 TEST(Rtc5Fly, PositionsOutsideTheFieldAreClippedFlaggedAndReported) {
     Rig rig;
-    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    ASSERT_TRUE(rig.card.parts().encoders.simulate(1));
     rig.put(Op::set_fly_x, {52.42881});
     rig.put(Op::long_delay, {3000});
     rig.go();
     EXPECT_EQ(rig.last_x(), 524'287);
     EXPECT_EQ(rig.card.state().flags.flag_tick[1], 1000);
-    EXPECT_EQ(decoded(rig.card.get_marking_info(), map::marking_info_bits),
+    EXPECT_EQ(decoded(rig.card.parts().flags.take_marking_info(), map::marking_info_bits),
               std::vector<std::string>{"FLY_X_OVERFLOW: the corrected X was above 524287"});
 }
 
 TEST(Rtc5Fly, StoredEncodersAreReadAndTheirVelocityIsSmoothed) {
     Rig rig;
-    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    ASSERT_TRUE(rig.card.parts().encoders.simulate(1));
     rig.put(Op::set_encoder_speed, {0, 1000, 0.5});
     rig.put(Op::store_encoder, {1});
     rig.put(Op::long_delay, {200});
     rig.go();
-    EXPECT_EQ(rig.card.read_encoder(1)[0], 10);
-    EXPECT_EQ(rig.card.read_encoder(0)[0], 0);
-    EXPECT_NEAR(rig.card.encoder_speed(), 1000, 1e-6);
+    EXPECT_EQ(rig.card.parts().encoders.stored(1)[0], 10);
+    EXPECT_EQ(rig.card.parts().encoders.stored(0)[0], 0);
+    EXPECT_NEAR(rig.card.parts().encoders.speed(), 1000, 1e-6);
 }
 
 TEST(Rtc5Fly, TheExtentGivesTheMarginOfAJobWithAndWithoutObservers) {
     const auto extent = [](double scale, bool looked_at) {
         Rig rig;
-        EXPECT_TRUE(rig.card.simulate_encoder(1));
-        EXPECT_TRUE(rig.card.extent().empty());
+        EXPECT_TRUE(rig.card.parts().encoders.simulate(1));
+        EXPECT_TRUE(rig.card.parts().pipeline.extent().empty());
         rig.put(Op::set_fly_x, {scale});
         rig.put(Op::set_mark_speed, {2592});
         rig.put(Op::mark_abs, {0, -7000});
@@ -305,7 +305,7 @@ TEST(Rtc5Fly, TheExtentGivesTheMarginOfAJobWithAndWithoutObservers) {
         rig.put(Op::set_end_of_list);
         EXPECT_TRUE(rig.card.execute_list(1));
         EXPECT_TRUE(rig.card.run_to_rest(1'000'000, looked_at ? &rig : nullptr));
-        return rig.card.extent();
+        return rig.card.parts().pipeline.extent();
     };
     for (const double scale : {0.5, 100.0}) {
         const PlanExtent seen = extent(scale, true), unseen = extent(scale, false);
@@ -319,7 +319,7 @@ TEST(Rtc5Fly, TheExtentGivesTheMarginOfAJobWithAndWithoutObservers) {
 
 TEST(Rtc5Fly, FlyReturnJumpsFromTheCorrectedPosition) {
     Rig rig;
-    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    ASSERT_TRUE(rig.card.parts().encoders.simulate(1));
     rig.put(Op::set_jump_speed, {10'000});
     rig.put(Op::set_fly_x, {1});
     rig.put(Op::long_delay, {100});
@@ -333,7 +333,7 @@ TEST(Rtc5Fly, FlyReturnJumpsFromTheCorrectedPosition) {
 
 TEST(Rtc5Fly, ParkingPausesTheCorrectionAndReturnsToThePart) {
     Rig rig;
-    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    ASSERT_TRUE(rig.card.parts().encoders.simulate(1));
     rig.put(Op::set_fly_x, {1});
     rig.put(Op::jump_abs, {500, 0});
     rig.put(Op::park_position, {0, -3000, 0});
@@ -358,10 +358,10 @@ TEST(Rtc5Fly, ACompensationTableIsReadCheckedAndAdded) {
     EXPECT_FALSE(FlyTable::read("[Fly2DTable1]\n0 0 0 0\n1 1 0 0\n", 1, "t.txt"));
     EXPECT_FALSE(FlyTable::read("[Fly2DTable1]\n0 0 0 99999999999\n", 1, "t.txt"));
     Rig rig;
-    rig.card.fly().load_table(std::make_shared<const FlyTable>(*table));
+    rig.card.parts().fly.load_table(std::make_shared<const FlyTable>(*table));
     rig.put(Op::set_fly_2d, {1, 1});
     rig.go();
-    rig.card.set_count(0, 100);
+    rig.card.parts().encoders.set_count(0, 100);
     rig.run(1);
     EXPECT_EQ(rig.last_x(), 110);
     EXPECT_EQ(rig.last_y(), -10);
@@ -371,7 +371,7 @@ TEST(Rtc5Fly, Activate2DWithoutATableIsAnError) {
     Rig rig;
     rig.put(Op::activate_fly_2d, {1, 1});
     rig.go();
-    EXPECT_EQ(rig.card.get_marking_info(), marking_bit("ACTIVATE_FLY_ERROR"));
+    EXPECT_EQ(rig.card.parts().flags.take_marking_info(), marking_bit("ACTIVATE_FLY_ERROR"));
     EXPECT_FALSE(rig.card.state().fly.on());
 }
 

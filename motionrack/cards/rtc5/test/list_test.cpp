@@ -46,7 +46,7 @@ TEST(Rtc5List, AVariableCornerDelayGrowsWithTheAngle) {
         Delays d;
         d.polygon = 20;
         d.variable_polygon = 1;
-        EXPECT_TRUE(rig.card.set_delays(d));
+        EXPECT_TRUE(rig.card.parts().path.set_delays(d));
         rig.put(Op::mark_abs, {100, 0});
         rig.put(Op::mark_rel, {x, y});
         return rig.go() - 21;
@@ -82,17 +82,17 @@ TEST(Rtc5List, ListsChangeOnceByAutoChangeAndRepeatedlyInALoop) {
     rig.begin(2);
     rig.put(Op::jump_rel, {0, 10});
     rig.put(Op::set_end_of_list);
-    rig.card.auto_change();
+    rig.card.parts().execution.auto_change();
     ASSERT_TRUE(rig.card.execute_list(1));
     ASSERT_TRUE(rig.card.run_to_rest(1000, &rig));
     EXPECT_EQ(rig.last_x(), 10);
     EXPECT_EQ(rig.last_y(), 10);
-    rig.card.start_loop();
+    rig.card.parts().execution.start_loop();
     ASSERT_TRUE(rig.card.execute_list(1));
     rig.run(100);
     EXPECT_EQ(rig.last_x() + rig.last_y(), 20 + 1000);
     EXPECT_TRUE(rig.card.busy());
-    rig.card.quit_loop();
+    rig.card.parts().execution.quit_loop();
     EXPECT_TRUE(rig.card.run_to_rest(1000, &rig));
 }
 
@@ -101,7 +101,7 @@ TEST(Rtc5List, ALoopOfListsWithoutDurationDoesNotHang) {
     rig.put(Op::set_end_of_list);
     rig.begin(2);
     rig.put(Op::set_end_of_list);
-    rig.card.start_loop();
+    rig.card.parts().execution.start_loop();
     ASSERT_TRUE(rig.card.execute_list(1));
     rig.run(3);
     EXPECT_FALSE(rig.card.busy());
@@ -116,7 +116,7 @@ TEST(Rtc5List, AFullListRejectsCommandsAndARunningOneIsNotRestarted) {
     ASSERT_TRUE(rig.card.execute_list(1));
     rig.run(2);
     EXPECT_FALSE(rig.card.execute_list(1));
-    EXPECT_FALSE(rig.card.config_list(10, 10));
+    EXPECT_FALSE(rig.card.parts().lists.configure(10, 10));
     EXPECT_FALSE(rig.card.set_start_list(1, 1 << 20));
     EXPECT_FALSE(rig.card.execute_list(1, -1));
     EXPECT_TRUE(rig.card.set_start_list(2));
@@ -137,7 +137,7 @@ TEST(Rtc5List, ListsLongerThanTheMemoryAreRejected) {
                                        {max_length, std::int64_t{-1}},
                                        {min_length, std::int64_t{-1}},
                                        {min_length, min_length}}) {
-        const auto refused = rig.card.config_list(list1, list2);
+        const auto refused = rig.card.parts().lists.configure(list1, list2);
         ASSERT_FALSE(refused) << list1 << ", " << list2;
         EXPECT_NE(refused.error().message.find("do not fit a memory of"), std::string::npos) << refused.error().message;
         EXPECT_EQ(rig.card.state().lists.begin, begin);
@@ -162,18 +162,18 @@ TEST(Rtc5List, NonFiniteAndOutOfRangeNumbersAreRejectedWithTheirLocation) {
         << "coordinates are clipped";
     EXPECT_EQ(list_command(Op::set_mark_speed, {1})->p[0], 1.6);
     Engine card;
-    EXPECT_FALSE(card.heads().set_matrix(1, {nan, 0, 0, 1}, 1));
-    EXPECT_FALSE(card.heads().set_offset(5, {0, 0}, 1));
-    EXPECT_FALSE(card.fly().set_rot_center({nan, 0}));
-    EXPECT_FALSE(card.load_correction(nullptr, 5));
-    EXPECT_FALSE(card.select_cor_table(1, 9));
+    EXPECT_FALSE(card.parts().heads.set_matrix(1, {nan, 0, 0, 1}, 1));
+    EXPECT_FALSE(card.parts().heads.set_offset(5, {0, 0}, 1));
+    EXPECT_FALSE(card.parts().fly.set_rot_center({nan, 0}));
+    EXPECT_FALSE(card.parts().heads.load_table(nullptr, 5));
+    EXPECT_FALSE(card.parts().heads.select_tables(1, 9));
     EXPECT_FALSE(card.goto_xy(nan, 0));
     EXPECT_FALSE(check({.list_memory = 10}));
 }
 
 TEST(Rtc5List, TheMatrixIsAppliedAfterTheCorrection) {
     Rig rig;
-    ASSERT_TRUE(rig.card.heads().set_matrix(1, {0.5, -0.866, 0.866, 0.5}, 1));
+    ASSERT_TRUE(rig.card.parts().heads.set_matrix(1, {0.5, -0.866, 0.866, 0.5}, 1));
     rig.put(Op::micro_vector_abs, {1000, 0, -1, -1});
     rig.go();
     EXPECT_EQ(rig.last_x(), 500);
@@ -182,7 +182,7 @@ TEST(Rtc5List, TheMatrixIsAppliedAfterTheCorrection) {
 
 TEST(Rtc5List, ATransformForTheNextJumpWaitsForIt) {
     Rig rig;
-    ASSERT_TRUE(rig.card.heads().set_offset(3, {100, 0}, 2));
+    ASSERT_TRUE(rig.card.parts().heads.set_offset(3, {100, 0}, 2));
     rig.put(Op::list_nop);
     rig.put(Op::jump_abs, {0, 0});
     rig.go();
@@ -192,18 +192,18 @@ TEST(Rtc5List, ATransformForTheNextJumpWaitsForIt) {
 
 TEST(Rtc5Starts, TrackDelaysQueueEightStartsAndAStartDuringAListIsLost) {
     Rig rig;
-    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    ASSERT_TRUE(rig.card.parts().encoders.simulate(1));
     rig.card.set_control_mode(control_ext_start);
     ASSERT_TRUE(rig.card.set_ext_start_delay(1000, 0));
     rig.put(Op::micro_vector_rel, {1, 0, -1, -1});
     rig.put(Op::set_end_of_list);
     for (int i = 0; i < 8; ++i) {
-        rig.card.external_start();
+        rig.card.parts().starts.trigger();
         rig.run(5);
     }
     constexpr std::uint32_t always = startstop_bit("NO_STOP_SIGNAL") | startstop_bit("LASER_ENABLED");
     EXPECT_EQ(rig.card.get_startstop_info(), always) << "none is due";
-    rig.card.external_start();
+    rig.card.parts().starts.trigger();
     rig.run(1);
     EXPECT_EQ(rig.card.get_startstop_info(), always | startstop_bit("START_LOST"));
     rig.run(200);
@@ -213,12 +213,12 @@ TEST(Rtc5Starts, TrackDelaysQueueEightStartsAndAStartDuringAListIsLost) {
     rig.begin();
     rig.put(Op::long_delay, {50});
     rig.put(Op::set_end_of_list);
-    rig.card.external_start();
+    rig.card.parts().starts.trigger();
     rig.run(2);
-    rig.card.external_start();
+    rig.card.parts().starts.trigger();
     rig.run(2);
     EXPECT_EQ(rig.card.get_startstop_info() & startstop_bit("START_LOST"), startstop_bit("START_LOST"));
-    EXPECT_EQ(rig.card.get_marking_info(), marking_bit("TRIGGER_ERROR"));
+    EXPECT_EQ(rig.card.parts().flags.take_marking_info(), marking_bit("TRIGGER_ERROR"));
 }
 
 TEST(Rtc5Starts, NotifiesAListenerOfEachStartAndEndInItsTick) {
@@ -229,16 +229,16 @@ TEST(Rtc5Starts, NotifiesAListenerOfEachStartAndEndInItsTick) {
     } reported;
     Rig rig;
     rig.card.set_listener(&reported);
-    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    ASSERT_TRUE(rig.card.parts().encoders.simulate(1));
     rig.card.set_control_mode(control_ext_start);
     ASSERT_TRUE(rig.card.set_ext_start_delay(1000, 0));
     rig.put(Op::long_delay, {20});
     rig.put(Op::set_end_of_list);
-    rig.card.external_start();
+    rig.card.parts().starts.trigger();
     rig.run(10);  // in tick 0: ten counts exist, 1010 after tick 100
-    rig.card.external_start();
+    rig.card.parts().starts.trigger();
     rig.run(50);
-    for (int i = 0; i < 7; ++i) rig.card.external_start();
+    for (int i = 0; i < 7; ++i) rig.card.parts().starts.trigger();
     rig.card.run_to_rest(1000);
     const std::vector<std::pair<std::int64_t, int>> expected = {
         {60, 2}, {100, 0}, {110, 1}, {120, 3}, {160, 0}, {160, 1}, {160, 1}, {160, 1}, {160, 1}, {160, 1}, {180, 3}};
@@ -247,14 +247,14 @@ TEST(Rtc5Starts, NotifiesAListenerOfEachStartAndEndInItsTick) {
 
 TEST(Rtc5Starts, EquidistantPartsAreCountedFromThePreviousStart) {
     Rig rig;
-    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    ASSERT_TRUE(rig.card.parts().encoders.simulate(1));
     rig.card.set_control_mode(control_ext_start | control_equidistant);
     ASSERT_TRUE(rig.card.set_ext_start_delay(1000, 0));
     rig.put(Op::micro_vector_rel, {1, 0, -1, -1});
     rig.put(Op::set_end_of_list);
-    rig.card.external_start();
+    rig.card.parts().starts.trigger();
     rig.run(110);
-    rig.card.external_start();  // in tick 110, ten ticks late: the part's position is counted from the first
+    rig.card.parts().starts.trigger();  // in tick 110, ten ticks late: the part's position is counted from the first
     rig.run(200);
     std::vector<std::size_t> at;
     for (std::size_t i = 1; i < rig.x.size(); ++i)
@@ -265,12 +265,12 @@ TEST(Rtc5Starts, EquidistantPartsAreCountedFromThePreviousStart) {
 
 TEST(Rtc5Starts, ResetAtStartZeroesTheEncoderWithTheList) {
     Rig rig;
-    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    ASSERT_TRUE(rig.card.parts().encoders.simulate(1));
     rig.card.set_control_mode(control_ext_start | control_reset_at_start);
     rig.put(Op::set_fly_x, {1});
     rig.go();
     EXPECT_NE(rig.card.encoder(0), 0);
-    rig.card.external_start();
+    rig.card.parts().starts.trigger();
     rig.run(1);
     EXPECT_EQ(rig.card.encoder(0), 0);
 }
@@ -278,7 +278,7 @@ TEST(Rtc5Starts, ResetAtStartZeroesTheEncoderWithTheList) {
 TEST(Rtc5Card, AStateAtAnInstantIsIndependentOfTheDivisionOfTime) {
     const auto state_after = [](std::vector<std::int64_t> steps, bool looked_at) {
         Rig rig;
-        static_cast<void>(rig.card.simulate_encoder(1));
+        static_cast<void>(rig.card.parts().encoders.simulate(1));
         rig.put(Op::set_fly_x, {0.5});
         rig.put(Op::set_laser_delays, {13, 17});
         for (int i = 0; i < 200; ++i) {
@@ -305,7 +305,7 @@ TEST(Rtc5Card, AStateAtAnInstantIsIndependentOfTheDivisionOfTime) {
 
 TEST(Rtc5Card, SettingsOfOneCardDoNotAffectAnother) {
     Rig a, b;
-    ASSERT_TRUE(a.card.simulate_encoder(3));
+    ASSERT_TRUE(a.card.parts().encoders.simulate(3));
     a.put(Op::set_fly_x, {3});
     a.go();
     b.put(Op::jump_abs, {9, 9});
@@ -319,7 +319,7 @@ TEST(Rtc5List, TheTimeToStandstillIsTheSameWithAndWithoutObservers) {
          {51'100.0, 51'200.0, 51'300.0, 102'400.0}) {  // 511, 512, 513, 1024 ticks: ends of blocks
         Rig seen, unseen;
         for (Rig* rig : {&seen, &unseen}) {
-            rig->card.set_jump_speed(10'000);
+            rig->card.parts().path.set_jump_speed(10'000);
             ASSERT_TRUE(rig->card.goto_xy(target, 0));
         }
         EXPECT_TRUE(seen.card.run_to_rest(10'000, &seen));

@@ -108,12 +108,12 @@ class Pair {
                 if (!card_.put(c)) break;
         }
         for (std::uint32_t i = 0; i < job_.subroutines.size(); ++i) {
-            static_cast<void>(card_.load_sub(i));
+            static_cast<void>(card_.parts().lists.load_sub(i));
             for (const Command& c : job_.subroutines[i]) static_cast<void>(card_.put(c));
             static_cast<void>(card_.put(*list_command(Op::list_return, {})));
         }
         std::copy_n(card_.state().lists.subroutines.begin(), 1024, twin_.subroutines);
-        std::copy(card_.memory().begin(), card_.memory().end(), twin_.memory.begin());
+        std::copy(card_.parts().lists.commands().begin(), card_.parts().lists.commands().end(), twin_.memory.begin());
     }
 
     twin::Sample twin_tick() {
@@ -149,17 +149,17 @@ class Pair {
     static void act_on_lists(const Act& a, Engine& c, twin::Twin& t) {
         const std::int64_t position = a.a % 2 ? list1 : 0;
         const double x = std::floor(a.v[0] * 9e4);
-        if (a.kind == Act::execute) static_cast<void>(c.execute_at(position)), t.execute(position);
-        if (a.kind == Act::change) c.auto_change(), t.auto_change = true;
-        if (a.kind == Act::loop) c.start_loop(), t.loop = true;
-        if (a.kind == Act::quit_loop) c.quit_loop(), t.loop = false;
+        if (a.kind == Act::execute) static_cast<void>(c.parts().execution.execute_at(position)), t.execute(position);
+        if (a.kind == Act::change) c.parts().execution.auto_change(), t.auto_change = true;
+        if (a.kind == Act::loop) c.parts().execution.start_loop(), t.loop = true;
+        if (a.kind == Act::quit_loop) c.parts().execution.quit_loop(), t.loop = false;
         if (a.kind == Act::stop) c.stop_execution(), t.stop();
         if (a.kind == Act::pause) c.pause_list(), t.pause();
         if (a.kind == Act::restart) c.restart_list(), t.restart();
         if (a.kind == Act::alone) static_cast<void>(c.goto_xy(x, 5)), t.jump_alone({x, 5});
-        if (a.kind == Act::start) c.external_start(), ++t.triggers;
-        if (a.kind == Act::laser && a.b) c.enable_laser(), t.laser_disabled = false;
-        if (a.kind == Act::laser && !a.b) c.disable_laser(), t.disable_laser();
+        if (a.kind == Act::start) c.parts().starts.trigger(), ++t.triggers;
+        if (a.kind == Act::laser && a.b) c.parts().laser.enable(), t.laser_disabled = false;
+        if (a.kind == Act::laser && !a.b) c.parts().laser.disable(), t.disable_laser();
     }
 
     static void act_on_inputs(const Act& a, Engine& c, twin::Twin& t) {
@@ -167,15 +167,16 @@ class Pair {
         if (a.kind == Act::count) {
             const int e = pick(2);
             t.encoders[e].input += static_cast<std::int32_t>(a.v[1] * 3000);
-            c.set_count(e, t.encoders[e].input);
+            c.parts().encoders.set_count(e, t.encoders[e].input);
         }
         if (a.kind == Act::simulate) {
-            static_cast<void>(c.simulate_encoder(pick(4)));
+            static_cast<void>(c.parts().encoders.simulate(pick(4)));
             for (int e = 0; e < 2; ++e) t.encoders[e].simulated = pick(4) >> e & 1;
         }
         if (a.kind == Act::tracking) {
             t.tracking[0] = pick(4) * 7, t.tracking[1] = pick(3);
-            c.set_tracking_error(static_cast<std::uint16_t>(pick(4) * 7), static_cast<std::uint16_t>(pick(3)));
+            c.parts().encoders.set_tracking_error(static_cast<std::uint16_t>(pick(4) * 7),
+                                                  static_cast<std::uint16_t>(pick(3)));
         }
         if (a.kind == Act::control) {
             t.control = (pick(5) ? 1u : 0u) | (pick(3) ? 0u : 512u) | (pick(7) > 3 ? 1024u : 0u);
@@ -185,10 +186,10 @@ class Pair {
             t.start_delay = pick(4) ? pick(2000) - 200 : 0, t.start_encoder = static_cast<int>(a.b);
             t.start_position = pick(2) ? list1 : 0;
             static_cast<void>(c.set_ext_start_delay(static_cast<std::int32_t>(t.start_delay), t.start_encoder));
-            c.set_extstartpos(t.start_position);
+            c.parts().starts.set_position(t.start_position);
         }
         if (a.kind == Act::watch) {
-            static_cast<void>(c.set_encoder_speed(2, 200, 0.3));
+            static_cast<void>(c.parts().encoders.watch_speed(2, 200, 0.3));
             t.watch_speed = true, t.smooth = 0.3;
             for (auto& e : t.encoders) e.slow1 = e.slow2 = 0;
         }
@@ -199,41 +200,41 @@ class Pair {
         const int head = static_cast<int>(pick(4)) + 1, once = static_cast<int>(pick(9)) % 4;
         const double x = a.v[0] * 1e4, y = a.v[1] * 1e4, degrees = a.v[0] * 90, scale = 1 + a.v[0] / 2;
         if (a.kind == Act::matrix)
-            static_cast<void>(c.heads().set_matrix(head, {a.v[0], a.v[1], a.v[2], a.v[3]}, once)),
+            static_cast<void>(c.parts().heads.set_matrix(head, {a.v[0], a.v[1], a.v[2], a.v[3]}, once)),
                 t.set_matrix(head, once, a.v);
         if (a.kind == Act::offset)
-            static_cast<void>(c.heads().set_offset(head, {x, y}, once)), t.set_offset(head, once, {x, y});
+            static_cast<void>(c.parts().heads.set_offset(head, {x, y}, once)), t.set_offset(head, once, {x, y});
         if (a.kind == Act::angle)
-            static_cast<void>(c.heads().set_angle(head, degrees, once)), t.set_angle(head, once, degrees);
+            static_cast<void>(c.parts().heads.set_angle(head, degrees, once)), t.set_angle(head, once, degrees);
         if (a.kind == Act::scale)
-            static_cast<void>(c.heads().set_scale(head, scale, once)), t.set_scale(head, once, scale);
+            static_cast<void>(c.parts().heads.set_scale(head, scale, once)), t.set_scale(head, once, scale);
         if (a.kind == Act::hi) {
-            static_cast<void>(c.heads().set_hi(3, {1 + a.v[0], 1}, {a.v[1] * 100, 0.5}));
+            static_cast<void>(c.parts().heads.set_hi(3, {1 + a.v[0], 1}, {a.v[1] * 100, 0.5}));
             for (int h = 0; h < 2; ++h)
                 t.gain[h][0] = 1 + a.v[0], t.gain[h][1] = 1, t.gain_offset[h][0] = a.v[1] * 100,
                 t.gain_offset[h][1] = 0.5;
         }
         if (a.kind == Act::cor) {
-            static_cast<void>(c.load_correction(table_, 2));
-            static_cast<void>(c.select_cor_table(pick(2) ? 2 : 0, a.b ? 2 : 0));
+            static_cast<void>(c.parts().heads.load_table(table_, 2));
+            static_cast<void>(c.parts().heads.select_tables(pick(2) ? 2 : 0, a.b ? 2 : 0));
             t.tables[0] = pick(2) ? &lens_file() : nullptr, t.tables[1] = &lens_file(), t.second_head = a.b;
         }
         if (a.kind == Act::delays) {
             const Delays d{pick(9),       pick(11), pick(30),
                            pick(60) - 20, pick(70), pick(2),
                            pick(3) * 10,  pick(5),  a.v[0] > 0 ? a.v[0] * 40000 : 0};
-            static_cast<void>(c.set_delays(d));
+            static_cast<void>(c.parts().path.set_delays(d));
             t.jump_delay = d.jump, t.mark_delay = d.mark, t.polygon_delay = d.polygon, t.laser_on = d.laser_on;
             t.laser_off = d.laser_off, t.variable_polygon = d.variable_polygon, t.edge_level = d.edge_level;
             t.min_jump = d.min_jump, t.jump_limit = d.jump_limit;
         }
         if (a.kind == Act::init_2d) {
-            c.fly().zero_2d(static_cast<std::int32_t>(pick(500)), 7);
+            c.parts().fly.zero_2d(static_cast<std::int32_t>(pick(500)), 7);
             for (auto& e : t.encoders) e.zero = e.travel;
             t.offset_2d = {static_cast<double>(pick(500)), 7};
         }
         if (a.kind == Act::reset_2d) {
-            c.fly().load_table(a.b ? std::make_shared<const FlyTable>(fly_table()) : nullptr);
+            c.parts().fly.load_table(a.b ? std::make_shared<const FlyTable>(fly_table()) : nullptr);
             t.table_2d = a.b ? &fly_table() : nullptr;
         }
     }
@@ -243,15 +244,16 @@ class Pair {
         const double x = pick(2) ? 1 : 0, y = pick(3) ? 0 : 2, turn = pick(5) ? 0 : 4000;
         const auto word = static_cast<std::uint32_t>(a.a);
         const int at_once = static_cast<int>(a.b) * 2;
-        if (a.kind == Act::word) c.mcbsp().receive(word), t.receive(word);
+        if (a.kind == Act::word) c.parts().mcbsp.receive(word), t.receive(word);
         if (a.kind == Act::mcbsp_in)
-            static_cast<void>(c.fly().set_mcbsp_in(pick(4), a.v[0] * 3)), t.set_mcbsp_in(pick(4), a.v[0] * 3);
-        if (a.kind == Act::multi) static_cast<void>(c.fly().set_multi_mcbsp_in(0, 0, 0)), t.set_multi();
-        if (a.kind == Act::online) static_cast<void>(c.fly().set_mcbsp_online(x, y, turn)), t.set_online(x, y, turn);
+            static_cast<void>(c.parts().fly.set_mcbsp_in(pick(4), a.v[0] * 3)), t.set_mcbsp_in(pick(4), a.v[0] * 3);
+        if (a.kind == Act::multi) static_cast<void>(c.parts().fly.set_multi_mcbsp_in(0, 0, 0)), t.set_multi();
+        if (a.kind == Act::online)
+            static_cast<void>(c.parts().fly.set_mcbsp_online(x, y, turn)), t.set_online(x, y, turn);
         if (a.kind == Act::apply)
             static_cast<void>(c.apply_mcbsp(1 + pick(4), at_once)), t.apply_online(1 + pick(4), at_once);
         if (a.kind == Act::read_info) {
-            both_.same("marking info", t.take_marking_info(), c.get_marking_info());
+            both_.same("marking info", t.take_marking_info(), c.parts().flags.take_marking_info());
             both_.same(
                 "start and stop info",
                 t.startstop | startstop_bit("NO_STOP_SIGNAL") | (t.laser_disabled ? 0 : startstop_bit("LASER_ENABLED")),
@@ -302,13 +304,13 @@ class Pair {
     }
 
     void compare_recordings() {
-        const Recording& r = card_.recorder().recording();
+        const Recording& r = card_.parts().recorder.recording();
         both_.same("period of the recording", twin_.period, r.period);
         both_.same("recorded samples", static_cast<std::int64_t>(twin_.rows.size()), r.count);
         for (std::size_t i = 0; i < twin_.rows.size() && both_.equal(); ++i)
             for (std::size_t k = 0; k < twin_.rows[i].size(); ++k) {
                 const auto recorded =
-                    card_.recorder().recorded(static_cast<std::int64_t>(k), static_cast<std::int64_t>(i));
+                    card_.parts().recorder.recorded(static_cast<std::int64_t>(k), static_cast<std::int64_t>(i));
                 if (recorded != twin_.rows[i][k])
                     both_.same(fmt::format("sample {} of signal {}", i, r.signals[k]), twin_.rows[i][k], recorded);
             }

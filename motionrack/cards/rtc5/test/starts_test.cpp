@@ -66,12 +66,12 @@ TEST(Rtc5Starts, APendingStartIsDueAtItsCountAfterARewind) {
     rewound.rig.run(10);
     const State before = rewound.rig.card.state();
     rewound.rig.run(30);
-    rewound.rig.card.external_start();
+    rewound.rig.card.parts().starts.trigger();
     ASSERT_EQ(rewound.begins_within(100), -1) << "the belt stands";
     rewound.rig.card.mutable_state() = before;
     fresh.rig.run(10);
     for (Station* station : {&rewound, &fresh}) {
-        station->rig.card.external_start();
+        station->rig.card.parts().starts.trigger();
         EXPECT_EQ(station->begins_within(100), 20);
     }
 }
@@ -80,7 +80,7 @@ TEST(Rtc5Starts, APendingStartIsDueAtItsCountAfterARestore) {
     const std::vector<Jumps::Jump> jumps = {{100, 30}};
     Station station(jumps);
     station.rig.run(10);
-    station.rig.card.external_start();
+    station.rig.card.parts().starts.trigger();
     station.rig.run(10);
     State further = station.rig.card.state();
     further.encoders.counters[0].travel += 20;  // as after ten ticks of the simulated encoder
@@ -92,13 +92,13 @@ TEST(Rtc5Starts, APendingStartIsDueAtItsCountAfterARestore) {
 TEST(Rtc5Starts, APendingStartIsDueAtItsCountAfterReloadingTheProgram) {
     const std::vector<Jumps::Jump> jumps = {{50, -100}, {200, 0}};
     Station reset(jumps), fresh(jumps);
-    reset.rig.card.external_start();
+    reset.rig.card.parts().starts.trigger();
     ASSERT_EQ(reset.begins_within(100), -1) << "the belt has gone back";
     fresh.rig.run(100);
     for (Station* station : {&reset, &fresh}) {
         station->rig.card.load_program_file();
         station->set_up();
-        station->rig.card.external_start();
+        station->rig.card.parts().starts.trigger();
         EXPECT_EQ(station->begins_within(300), 200) << "100 counts forward, of which 50 were wanted";
     }
 }

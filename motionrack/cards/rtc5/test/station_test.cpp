@@ -65,14 +65,14 @@ TEST(Rtc5Station, ASquareOnABeltIsDistortedWithoutCorrectionAndRightWithIt) {
     // One count and one tick.
     EXPECT_LE(on.max_mm, 0.0021);
     EXPECT_EQ(on.missing_mm, 0);
-    EXPECT_EQ(with.card.get_marking_info(), 0u);
+    EXPECT_EQ(with.card.parts().flags.take_marking_info(), 0u);
 }
 
 TEST(Rtc5Station, TheBeltVelocityMayChangeWithAnEncoderButNotWithTheSimulatedOne) {
     auto settings = belt(100);
     settings.track.profile = {{0, 50}, {0.05, 150}, {0.1, 80}};
     Machine with(settings), simulated(settings);
-    ASSERT_TRUE(simulated.card.simulate_encoder(1));
+    ASSERT_TRUE(simulated.card.parts().encoders.simulate(1));
     EXPECT_LE(with.square({*list_command(Op::set_fly_x, {station_k / 1000})}).max_mm, 0.003);
     EXPECT_GT(simulated.square({*list_command(Op::set_fly_x, {station_k * 100 / 1e6})}).max_mm, 0.5);
 }
@@ -88,7 +88,7 @@ TEST(Rtc5Station, TheTrackingErrorCompensatesTheLagOfTheMirrors) {
     const auto start = *list_command(Op::set_fly_x, {station_k / 20'000});
     Machine plain(settings), ahead(settings);
     EXPECT_NEAR(plain.station.galvo().lag_us(), 150, 0.1);
-    ahead.card.set_tracking_error(15, 0);
+    ahead.card.parts().encoders.set_tracking_error(15, 0);
     for (Machine* m : {&plain, &ahead}) m->laser_delay = 300;  // the laser follows the mirrors
     const double late = plain.square({start}).max_mm, right = ahead.square({start}).max_mm;
     EXPECT_NEAR(late, 0.075, 0.012) << "150 us at 500 mm/s";
@@ -99,8 +99,8 @@ TEST(Rtc5Station, ATableMadeFromTheLensMakesTheFieldFlat) {
     auto settings = belt(0);
     settings.lens = sim::ScanLens{};
     Machine bent(settings), flat(settings);
-    ASSERT_TRUE(flat.card.load_correction(table_of(*correction_of(*settings.lens)), 1));
-    ASSERT_TRUE(flat.card.select_cor_table(1, 0));
+    ASSERT_TRUE(flat.card.parts().heads.load_table(table_of(*correction_of(*settings.lens)), 1));
+    ASSERT_TRUE(flat.card.parts().heads.select_tables(1, 0));
     EXPECT_GT(bent.square({}).max_mm, 0.2);
     EXPECT_LT(flat.square({}).max_mm, 0.001);
 }
@@ -118,7 +118,7 @@ TEST(Rtc5Station, ARotaryTableIsFollowed) {
     parts::StationSettings settings;
     settings.track = {.rotary = true, .centre_mm = {-30, 0}, .profile = {{0, 60}}, .counts_per_unit = 10'000};
     Machine machine(settings);
-    ASSERT_TRUE(machine.card.fly().set_rot_center({-30 * station_k, 0}));
+    ASSERT_TRUE(machine.card.parts().fly.set_rot_center({-30 * station_k, 0}));
     EXPECT_LE(machine.square({*list_command(Op::set_fly_rot, {3'600'000})}).max_mm, 0.002);
 }
 

@@ -57,7 +57,7 @@ TEST(Rtc5Wobbel, IsCorrectedAndOffWithoutAmplitudeOrFrequency) {
     for (const auto& [transversal, hertz] : {std::pair{0.0, 2500.0}, std::pair{100.0, 0.0}, std::pair{100.0, 2500.0}}) {
         Rig rig;
         rig.put(Op::set_rot_center_list, {0, 0});
-        rig.card.mcbsp().receive(900);
+        rig.card.parts().mcbsp.receive(900);
         rig.put(Op::set_fly_rot_pos, {3600});  // a quarter turn, counter-clockwise
         rig.put(Op::set_mark_speed, {1000});
         rig.put(Op::set_wobbel, {transversal, 0, hertz});
@@ -71,12 +71,12 @@ TEST(Rtc5Wobbel, IsCorrectedAndOffWithoutAmplitudeOrFrequency) {
 
 TEST(Rtc5Subroutines, ACallAndItsReturnTakeNoTime) {
     Rig rig;
-    ASSERT_TRUE(rig.card.load_sub(5));
+    ASSERT_TRUE(rig.card.parts().lists.load_sub(5));
     rig.put(Op::micro_vector_rel, {1, 0, -1, -1});
     rig.put(Op::micro_vector_rel, {1, 0, -1, -1});
     rig.put(Op::list_return);
     EXPECT_FALSE(rig.card.put(*list_command(Op::list_nop, {}))) << "no list is open behind a subroutine";
-    ASSERT_TRUE(rig.card.load_sub(6));
+    ASSERT_TRUE(rig.card.parts().lists.load_sub(6));
     rig.put(Op::sub_call, {5});
     rig.put(Op::micro_vector_rel, {0, 10, -1, -1});
     rig.put(Op::sub_call, {5});
@@ -95,12 +95,12 @@ TEST(Rtc5Subroutines, ACallAndItsReturnTakeNoTime) {
 
 TEST(Rtc5Subroutines, AMissingOrTooDeepSubroutineIsANop) {
     Rig rig;
-    ASSERT_TRUE(rig.card.load_sub(0));
+    ASSERT_TRUE(rig.card.parts().lists.load_sub(0));
     rig.put(Op::micro_vector_rel, {1, 0, -1, -1});
     rig.put(Op::list_return);
-    ASSERT_TRUE(rig.card.load_sub(0));
+    ASSERT_TRUE(rig.card.parts().lists.load_sub(0));
     rig.put(Op::list_return);  // deleted
-    EXPECT_FALSE(rig.card.load_sub(1024));
+    EXPECT_FALSE(rig.card.parts().lists.load_sub(1024));
     rig.begin();
     rig.put(Op::sub_call, {0});
     rig.put(Op::list_return);
@@ -123,7 +123,7 @@ TEST(Rtc5Subroutines, AMissingOrTooDeepSubroutineIsANop) {
 TEST(Rtc5Subroutines, CallsThatTakeNoTimeDoNotHang) {
     Rig rig;
     for (int depth = 0; depth < 20; ++depth) {  // 2^20 calls without a tick
-        ASSERT_TRUE(rig.card.load_sub(static_cast<std::uint32_t>(depth)));
+        ASSERT_TRUE(rig.card.parts().lists.load_sub(static_cast<std::uint32_t>(depth)));
         if (depth > 0) rig.put(Op::sub_call, {depth - 1.0}), rig.put(Op::sub_call, {depth - 1.0});
         rig.put(Op::set_mark_speed, {2000});
         rig.put(Op::list_return);

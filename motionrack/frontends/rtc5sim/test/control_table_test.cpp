@@ -109,8 +109,8 @@ TEST(Rtc5ControlTable, EachCommandReturnsTheDeclaredNumberOfValues) {
     for (const ControlCommand& command : rtc5::control_commands()) {
         SCOPED_TRACE(command.name);
         Engine card;
-        ASSERT_TRUE(card.fly().set_mcbsp_in(3, 0));
-        card.mcbsp().receive(0x00010002);
+        ASSERT_TRUE(card.parts().fly.set_mcbsp_in(3, 0));
+        card.parts().mcbsp.receive(0x00010002);
         card.run_until(1);
         const auto answer = command.run(card, min_of(command));
         ASSERT_TRUE(answer) << answer.error().message;

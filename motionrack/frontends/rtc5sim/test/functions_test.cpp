@@ -111,61 +111,62 @@ const Row list_rows[] = {
 };
 
 const Row control_rows[] = {
-    {"set_jump_speed_ctrl", [] { set_jump_speed_ctrl(7777); }, [](Engine& c) { c.set_jump_speed(7777); }},
-    {"set_mark_speed_ctrl", [] { set_mark_speed_ctrl(8888); }, [](Engine& c) { c.set_mark_speed(8888); }},
+    {"set_jump_speed_ctrl", [] { set_jump_speed_ctrl(7777); }, [](Engine& c) { c.parts().path.set_jump_speed(7777); }},
+    {"set_mark_speed_ctrl", [] { set_mark_speed_ctrl(8888); }, [](Engine& c) { c.parts().path.set_mark_speed(8888); }},
     {"set_delay_mode", [] { set_delay_mode(1, 0, 40, 2, 900'000); },
      [](Engine& c) {
          rtc5::Delays d = c.state().path.delays;
          d.variable_polygon = 1, d.edge_level = 40, d.min_jump = 2, d.jump_limit = 900'000;
-         ASSERT_TRUE(c.set_delays(d));
+         ASSERT_TRUE(c.parts().path.set_delays(d));
      }},
     {"set_matrix", [] { set_matrix(1, 0.5, -0.25, 0.125, 0.75, 1); },
      [](Engine& c) {
-         ASSERT_TRUE(c.heads().set_matrix(1, {0.5, -0.25, 0.125, 0.75}, 1));
+         ASSERT_TRUE(c.parts().heads.set_matrix(1, {0.5, -0.25, 0.125, 0.75}, 1));
      }},
     {"set_offset", [] { set_offset(4, 123, -456, 1); },
      [](Engine& c) {
-         ASSERT_TRUE(c.heads().set_offset(4, {123, -456}, 1));
+         ASSERT_TRUE(c.parts().heads.set_offset(4, {123, -456}, 1));
      }},
-    {"set_angle", [] { set_angle(1, 12.5, 2); }, [](Engine& c) { ASSERT_TRUE(c.heads().set_angle(1, 12.5, 2)); }},
-    {"set_scale", [] { set_scale(3, 0.25, 0); }, [](Engine& c) { ASSERT_TRUE(c.heads().set_scale(3, 0.25, 0)); }},
+    {"set_angle", [] { set_angle(1, 12.5, 2); }, [](Engine& c) { ASSERT_TRUE(c.parts().heads.set_angle(1, 12.5, 2)); }},
+    {"set_scale", [] { set_scale(3, 0.25, 0); }, [](Engine& c) { ASSERT_TRUE(c.parts().heads.set_scale(3, 0.25, 0)); }},
     {"set_hi", [] { set_hi(1, 0.5, 2, 30, -40); },
      [](Engine& c) {
-         ASSERT_TRUE(c.heads().set_hi(1, {0.5, 2}, {30, -40}));
+         ASSERT_TRUE(c.parts().heads.set_hi(1, {0.5, 2}, {30, -40}));
      }},
     {"write_io_port", [] { write_io_port(77); }, [](Engine& c) { c.mutable_state().io = 77; }},
-    {"simulate_encoder", [] { simulate_encoder(2); }, [](Engine& c) { ASSERT_TRUE(c.simulate_encoder(2)); }},
+    {"simulate_encoder", [] { simulate_encoder(2); }, [](Engine& c) { ASSERT_TRUE(c.parts().encoders.simulate(2)); }},
     {"set_rot_center", [] { set_rot_center(9000, -8000); },
      [](Engine& c) {
-         ASSERT_TRUE(c.fly().set_rot_center({9000, -8000}));
+         ASSERT_TRUE(c.parts().fly.set_rot_center({9000, -8000}));
      }},
-    {"set_fly_tracking_error", [] { set_fly_tracking_error(15, 7); }, [](Engine& c) { c.set_tracking_error(15, 7); }},
-    {"init_fly_2d", [] { init_fly_2d(400, -500); }, [](Engine& c) { c.fly().zero_2d(400, -500); }},
+    {"set_fly_tracking_error", [] { set_fly_tracking_error(15, 7); },
+     [](Engine& c) { c.parts().encoders.set_tracking_error(15, 7); }},
+    {"init_fly_2d", [] { init_fly_2d(400, -500); }, [](Engine& c) { c.parts().fly.zero_2d(400, -500); }},
     {"set_encoder_speed_ctrl", [] { set_encoder_speed_ctrl(2, 500, 0.5); },
-     [](Engine& c) { ASSERT_TRUE(c.set_encoder_speed(2, 500, 0.5)); }},
+     [](Engine& c) { ASSERT_TRUE(c.parts().encoders.watch_speed(2, 500, 0.5)); }},
     {"set_control_mode", [] { set_control_mode(512); }, [](Engine& c) { c.set_control_mode(512); }},
-    {"set_mcbsp_in", [] { set_mcbsp_in(1, 2.5); }, [](Engine& c) { ASSERT_TRUE(c.fly().set_mcbsp_in(1, 2.5)); }},
+    {"set_mcbsp_in", [] { set_mcbsp_in(1, 2.5); }, [](Engine& c) { ASSERT_TRUE(c.parts().fly.set_mcbsp_in(1, 2.5)); }},
     {"set_multi_mcbsp_in", [] { set_multi_mcbsp_in(1, 2, 0); },
-     [](Engine& c) { ASSERT_TRUE(c.fly().set_multi_mcbsp_in(1, 2, 0)); }},
+     [](Engine& c) { ASSERT_TRUE(c.parts().fly.set_multi_mcbsp_in(1, 2, 0)); }},
     {"set_mcbsp_x, set_mcbsp_y, apply_mcbsp",
      [] { set_mcbsp_x(2), set_mcbsp_y(3), rtc5sim_receive(1, 0x00050007), rtc5sim_advance_us(20), apply_mcbsp(1, 1); },
      [](Engine& c) {
-         ASSERT_TRUE(c.fly().set_mcbsp_online(2, 3, 0));
-         c.mcbsp().receive(0x00050007), c.run_until(c.tick() + 2);
+         ASSERT_TRUE(c.parts().fly.set_mcbsp_online(2, 3, 0));
+         c.parts().mcbsp.receive(0x00050007), c.run_until(c.tick() + 2);
          ASSERT_TRUE(c.apply_mcbsp(1, 1));
      }},
     {"set_mcbsp_rot",
      [] { set_mcbsp_rot(3600), rtc5sim_receive(1, 0x80000384), rtc5sim_advance_us(20), apply_mcbsp(1, 1); },
      [](Engine& c) {
-         ASSERT_TRUE(c.fly().set_mcbsp_online(0, 0, 3600));
-         c.mcbsp().receive(0x80000384), c.run_until(c.tick() + 2);
+         ASSERT_TRUE(c.parts().fly.set_mcbsp_online(0, 0, 3600));
+         c.parts().mcbsp.receive(0x80000384), c.run_until(c.tick() + 2);
          ASSERT_TRUE(c.apply_mcbsp(1, 1));
      }},
     {"set_mcbsp_matrix",
      [] { set_mcbsp_matrix(), rtc5sim_receive(1, 0x02000001), rtc5sim_advance_us(20), apply_mcbsp(1, 1); },
      [](Engine& c) {
-         c.fly().set_mcbsp_matrix();
-         c.mcbsp().receive(0x02000001), c.run_until(c.tick() + 2);
+         c.parts().fly.set_mcbsp_matrix();
+         c.parts().mcbsp.receive(0x02000001), c.run_until(c.tick() + 2);
          ASSERT_TRUE(c.apply_mcbsp(1, 1));
      }},
     {"goto_xy", [] { goto_xy(3000, 4000), rtc5sim_run(1'000'000); },
@@ -175,34 +176,35 @@ const Row control_rows[] = {
      }},
     {"config_list", [] { config_list(50, 60), set_start_list(2); },
      [](Engine& c) {
-         ASSERT_TRUE(c.config_list(50, 60));
+         ASSERT_TRUE(c.parts().lists.configure(50, 60));
          ASSERT_TRUE(c.set_start_list(2));
      }},
     {"get_mcbsp", [] { get_mcbsp(); },
      [](Engine& c) {
          c.run_until(c.tick() + 1);
-         ASSERT_TRUE(c.mcbsp().store_now());
+         ASSERT_TRUE(c.parts().mcbsp.store_now());
      }},
-    {"disable_laser", [] { disable_laser(); }, [](Engine& c) { c.disable_laser(); }},
-    {"enable_laser", [] { disable_laser(), enable_laser(); }, [](Engine& c) { c.disable_laser(), c.enable_laser(); }},
+    {"disable_laser", [] { disable_laser(); }, [](Engine& c) { c.parts().laser.disable(); }},
+    {"enable_laser", [] { disable_laser(), enable_laser(); },
+     [](Engine& c) { c.parts().laser.disable(), c.parts().laser.enable(); }},
     {"set_mcbsp_out", [] { set_mcbsp_out(7, 43); },
      [](Engine& c) {
-         ASSERT_TRUE(c.recorder().send(std::array<std::uint32_t, 2>{7, 43}));
+         ASSERT_TRUE(c.parts().recorder.send(std::array<std::uint32_t, 2>{7, 43}));
      }},
     {"set_start_list_pos", [] { set_start_list_pos(2, 7); }, [](Engine& c) { ASSERT_TRUE(c.set_start_list(2, 7)); }},
     {"load_sub", [] { load_sub(9), mark_rel(50, 60), list_return(), set_start_list(1), sub_call(9); },
      [](Engine& c) {
-         ASSERT_TRUE(c.load_sub(9));
+         ASSERT_TRUE(c.parts().lists.load_sub(9));
          put(c, Op::mark_rel, {50, 60}), put(c, Op::list_return, {});
          ASSERT_TRUE(c.set_start_list(1));
          put(c, Op::sub_call, {9});
      }},
     {"load_list", [] { rtc5sim_question_us(0), load_list(0, 9), rtc5sim_question_us(10); },
-     [](Engine& c) { ASSERT_TRUE(c.load_list(0, 9)); }},
+     [](Engine& c) { ASSERT_TRUE(c.parts().lists.load_list(0, 9)); }},
     {"select_cor_table", [] { load_correction_file(nullptr, 3, 2), select_cor_table(3, 0); },
      [](Engine& c) {
-         ASSERT_TRUE(c.load_correction(rtc5::table_of(rtc5::one_to_one()), 3));
-         ASSERT_TRUE(c.select_cor_table(3, 0));
+         ASSERT_TRUE(c.parts().heads.load_table(rtc5::table_of(rtc5::one_to_one()), 3));
+         ASSERT_TRUE(c.parts().heads.select_tables(3, 0));
      }},
     {"load_program_file", [] { set_offset(1, 5, 6, 1), load_program_file(nullptr); },
      [](Engine& c) { c.load_program_file(); }},
@@ -271,8 +273,8 @@ Did by_library(const Row* control, const Row* in_list) {
 
 Did by_card(const Row* control, const Row* in_list) {
     Engine card;
-    EXPECT_TRUE(card.simulate_encoder(3));
-    card.mcbsp().receive(0x00010001);
+    EXPECT_TRUE(card.parts().encoders.simulate(3));
+    card.parts().mcbsp.receive(0x00010001);
     if (control != nullptr) control->card(card);
     const std::int64_t begin = card.input_pointer();
     put(card, Op::set_mark_speed, {20'000}), put(card, Op::set_jump_speed, {50'000});
@@ -281,26 +283,34 @@ Did by_card(const Row* control, const Row* in_list) {
     if (in_list != nullptr) in_list->card(card);
     put(card, Op::jump_abs, {1000, 2000}), put(card, Op::mark_abs, {30'000, -20'000});
     put(card, Op::mark_abs, {0, 5000}), put(card, Op::set_end_of_list, {});
-    EXPECT_TRUE(card.execute_at(begin));
+    EXPECT_TRUE(card.parts().execution.execute_at(begin));
     Kept kept;
     card.run_until(card.tick() + ticks, &kept);
     Did did{kept.trace, {}};
-    did.answers = {card.status(),           card.list_position(),    card.get_marking_info(), card.get_startstop_info(),
-                   card.state().io,         card.encoder(0),         card.encoder(1),         card.read_encoder(0)[0],
-                   card.read_encoder(0)[1], card.read_encoder(1)[0], card.read_encoder(1)[1]};
-    for (int i = 0; i < 4; ++i) did.answers.push_back(card.mcbsp().read(i).value_or(0));
-    for (int i = 0; i < 8; ++i) did.answers.push_back(card.mcbsp().typed(i));
+    did.answers = {card.status(),
+                   card.parts().execution.position(),
+                   card.parts().flags.take_marking_info(),
+                   card.get_startstop_info(),
+                   card.state().io,
+                   card.encoder(0),
+                   card.encoder(1),
+                   card.parts().encoders.stored(0)[0],
+                   card.parts().encoders.stored(0)[1],
+                   card.parts().encoders.stored(1)[0],
+                   card.parts().encoders.stored(1)[1]};
+    for (int i = 0; i < 4; ++i) did.answers.push_back(card.parts().mcbsp.read(i).value_or(0));
+    for (int i = 0; i < 8; ++i) did.answers.push_back(card.parts().mcbsp.typed(i));
     did.answers.push_back(static_cast<std::int64_t>(card.state().fly.offset_2d.x));
     did.answers.push_back(static_cast<std::int64_t>(card.state().fly.offset_2d.y));
     did.answers.push_back(card.state().lists.input_end - card.input_pointer());
-    did.answers.push_back(card.list_status());
+    did.answers.push_back(card.parts().lists.status());
     for (const rtc5::SignalInfo& signal : rtc5::map::signals)
-        did.answers.push_back(card.recorder().value(signal.number).value());
-    did.answers.push_back(card.recorder().recording().period != 0);
-    did.answers.push_back(static_cast<UINT>(card.recorder().recording().count) - 1);
-    for (std::int64_t i = 0; i < card.recorder().recording().count; ++i)
-        did.answers.push_back(card.recorder().recorded(1, i));
-    did.answers.push_back(card.recorder().sent());
+        did.answers.push_back(card.parts().recorder.value(signal.number).value());
+    did.answers.push_back(card.parts().recorder.recording().period != 0);
+    did.answers.push_back(static_cast<UINT>(card.parts().recorder.recording().count) - 1);
+    for (std::int64_t i = 0; i < card.parts().recorder.recording().count; ++i)
+        did.answers.push_back(card.parts().recorder.recorded(1, i));
+    did.answers.push_back(card.parts().recorder.sent());
     return did;
 }
 
