@@ -102,7 +102,7 @@ struct StateRow {
 };
 
 /// Executes the first row for the event in the state `from` whose guard holds: stores its state by `put`, then runs
-/// its action. Returns false if there is no such row: the event has no effect.
+/// its action. Returns false if no row fits: the event has no effect.
 template <class Owner, class State, class Event, class Data, std::size_t count, class Put>
 bool step(const StateRow<Owner, State, Event, Data> (&table)[count], State from, std::type_identity_t<Event> event,
           std::type_identity_t<Owner>& owner, std::type_identity_t<Data> data, const Put& put) {

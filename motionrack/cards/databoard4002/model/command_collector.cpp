@@ -14,7 +14,7 @@ std::int32_t argument_bytes(std::uint8_t code) {
 
 }  // namespace
 
-struct CommandCollector::Steps {
+struct CommandCollector::CollectorSteps {
     /// Events: a command came; it asks or sets, sets, or asks; an access to DATA or C4.
     enum class Event : std::uint8_t { next_command, asks_or_sets, sets, asks, out_data, in_data, enables };
 
@@ -100,15 +100,15 @@ void CommandCollector::open_answer(std::int64_t value, int bytes) {
 }
 
 void CommandCollector::take_command(std::uint8_t code, Instant now) {
-    using enum Steps::Event;
-    Steps::run(*this, Steps::Event::next_command, code);
+    using enum CollectorSteps::Event;
+    CollectorSteps::run(*this, CollectorSteps::Event::next_command, code);
     state_.answer_left = 0;
     switch (code) {
         case command("A"):
             report_during_move(code);
             return positioner_.home(now);
         case command("D"):
-            Steps::run(*this, asks_or_sets, code);
+            CollectorSteps::run(*this, asks_or_sets, code);
             return open_answer(positioner_.deviation(now), 3);
         case command("G"):
             return positioner_.go(now);
@@ -121,20 +121,20 @@ void CommandCollector::take_command(std::uint8_t code, Instant now) {
         case command("N"):
         case command("S"):
             report_during_move(code);
-            Steps::run(*this, sets, code);
+            CollectorSteps::run(*this, sets, code);
             return;
         case command("O"):
             return positioner_.select_slope();
         case command("P"):
-            Steps::run(*this, asks_or_sets, code);
+            CollectorSteps::run(*this, asks_or_sets, code);
             return open_answer(signed24(counter_.value(now)), 3);
         case command("Q"):
             return positioner_.quit(settings_.quit_zeroes);
         case command("R"):
-            Steps::run(*this, asks_or_sets, code);
+            CollectorSteps::run(*this, asks_or_sets, code);
             return open_answer(outputs_.signed_rate(), 2);
         case command("V"):
-            Steps::run(*this, asks, code);
+            CollectorSteps::run(*this, asks, code);
             return open_answer(settings_.version, 1);
         case command("W"):
             events_.clear(event::WATCH_OUT);
@@ -151,7 +151,8 @@ void CommandCollector::report_during_move(std::uint8_t code) {
 // ---- arguments and answers
 
 void CommandCollector::take_argument(std::uint8_t value) {
-    if (!Steps::run(*this, Steps::Event::out_data, value)) conditions_.report(CardCondition::data_unexpected, value);
+    if (!CollectorSteps::run(*this, CollectorSteps::Event::out_data, value))
+        conditions_.report(CardCondition::data_unexpected, value);
 }
 
 void CommandCollector::arguments_complete(std::uint8_t code) {
@@ -171,7 +172,7 @@ void CommandCollector::arguments_complete(std::uint8_t code) {
 }
 
 void CommandCollector::next_answer() {
-    Steps::run(*this, Steps::Event::in_data, 0);
+    CollectorSteps::run(*this, CollectorSteps::Event::in_data, 0);
 }
 
 // ---- C4
@@ -179,7 +180,7 @@ void CommandCollector::next_answer() {
 void CommandCollector::enable_events(std::uint8_t value) {
     latch_ = events_.enable(value);
     state_.answer_left = 0;
-    Steps::run(*this, Steps::Event::enables, value);
+    CollectorSteps::run(*this, CollectorSteps::Event::enables, value);
     events_.subscribe_zero();
     events_.check();
 }

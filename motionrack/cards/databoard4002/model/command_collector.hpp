@@ -4,7 +4,7 @@
 //     │                 └──────INP DATA──► answering ──last byte──► idle
 //     └──N, S──► collecting, V ──► answering
 //
-// CommandCollector::Steps in the .cpp file is the table of these states.
+// CommandCollector::CollectorSteps in the .cpp file is the table of these states.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ class CommandCollector {
     void enable_events(std::uint8_t value);
 
   private:
-    struct Steps;
+    struct CollectorSteps;
 
     /// Begins the answer `value` of that many bytes; the first byte enters the latch at once.
     void open_answer(std::int64_t value, int bytes);

@@ -3,7 +3,7 @@
 
 namespace motionrack::databoard4002 {
 
-struct HostPorts::Steps {
+struct HostPorts::HandshakeSteps {
     enum class Event : std::uint8_t { access, done };
     struct Access {
         Work kind = Work::none;
@@ -59,12 +59,12 @@ HostPorts::HostPorts(HostPortsState& state, Duration byte_time, const ConditionR
 
 bool HostPorts::access(Work kind, std::uint8_t port, std::uint8_t value, Instant now) {
     const bool taken = host_state() == HostState::ready;
-    Steps::run(*this, Steps::Event::access, {kind, port, value, now});
+    HandshakeSteps::run(*this, HandshakeSteps::Event::access, {kind, port, value, now});
     return taken;
 }
 
 void HostPorts::work(Instant now) {
-    if (state_.access_due <= now) Steps::run(*this, Steps::Event::done, {.now = now});
+    if (state_.access_due <= now) HandshakeSteps::run(*this, HandshakeSteps::Event::done, {.now = now});
 }
 
 void HostPorts::request_pass() {

@@ -2,7 +2,7 @@
 //
 //   access while Ready ──► Ready drops ──byte time──► the pass from there on executes it ──► Ready
 //
-// HostPorts::Steps in the .cpp file is the table of this handshake.
+// HostPorts::HandshakeSteps in the .cpp file is the table of this handshake.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ class HostPorts {
     void update_interrupt() { events_.update_interrupt(state_.ready != 0); }
 
   private:
-    struct Steps;
+    struct HandshakeSteps;
 
     std::uint8_t status() const;
     HostState host_state() const { return state_.ready ? HostState::ready : HostState::busy; }

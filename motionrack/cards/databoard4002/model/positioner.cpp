@@ -13,7 +13,7 @@ constexpr std::int64_t half_range = std::int64_t{1} << 23;
 
 }  // namespace
 
-struct Positioner::Steps {
+struct Positioner::MoveSteps {
     enum class Event : std::uint8_t { go, lock, manual, quit, emergency, pass };
 
     static bool arrived(const Positioner& p, Instant now) {
@@ -79,7 +79,7 @@ void Positioner::go(Instant now) {
     events_.clear(event::POSITION);
     s.went = 1;
     s.requested = target;
-    Steps::run(*this, Steps::Event::go, now);
+    MoveSteps::run(*this, MoveSteps::Event::go, now);
 }
 
 void Positioner::report_flaw() {
@@ -110,16 +110,16 @@ void Positioner::zero(Instant now) {
 }
 
 void Positioner::lock() {
-    Steps::run(*this, Steps::Event::lock, {});
+    MoveSteps::run(*this, MoveSteps::Event::lock, {});
 }
 
 void Positioner::select_manual() {
     state_.sloped = 0;
-    Steps::run(*this, Steps::Event::manual, {});
+    MoveSteps::run(*this, MoveSteps::Event::manual, {});
 }
 
 void Positioner::quit(bool zeroes) {
-    Steps::run(*this, Steps::Event::quit, {});
+    MoveSteps::run(*this, MoveSteps::Event::quit, {});
     if (zeroes) state_.target = state_.number = 0;
 }
 
@@ -136,11 +136,11 @@ void Positioner::set_target(std::int64_t position) {
 // ---- a pass
 
 void Positioner::abort(Instant now) {
-    Steps::run(*this, Steps::Event::emergency, now);
+    MoveSteps::run(*this, MoveSteps::Event::emergency, now);
 }
 
 void Positioner::check_position(Instant now) {
-    Steps::run(*this, Steps::Event::pass, now);
+    MoveSteps::run(*this, MoveSteps::Event::pass, now);
 }
 
 int Positioner::output_rate(Instant now) const {

@@ -4,7 +4,7 @@
 //          ▲                                             │
 //          └────── lock: deviation > window ◄────────────┘
 //
-// Positioner::Steps in the .cpp file is the table of the states of a move.
+// Positioner::MoveSteps in the .cpp file is the table of the states of a move.
 #pragma once
 
 #include <cstdint>
@@ -69,7 +69,7 @@ class Positioner {
     void aim(Instant now);
 
   private:
-    struct Steps;
+    struct MoveSteps;
 
     void begin_move(std::int64_t target, Instant now);
     void report_flaw();

@@ -16,24 +16,24 @@ class Watchdog {
     Instant due() const { return due_; }
 
     /// The firmware hangs from now on. `last_pass`: its last pass.
-    void hang(Instant last_pass) { Steps::run(*this, Event::hang, last_pass); }
+    void hang(Instant last_pass) { FirmwareSteps::run(*this, FirmwareEvent::hang, last_pass); }
     /// The firmware runs.
-    void restart() { Steps::run(*this, Event::restart, never); }
+    void restart() { FirmwareSteps::run(*this, FirmwareEvent::restart, never); }
 
   private:
-    enum class Event : std::uint8_t { hang, restart };
+    enum class FirmwareEvent : std::uint8_t { hang, restart };
 
-    struct Steps {
+    struct FirmwareSteps {
         static void wait(Watchdog& watchdog, Instant last_pass) { watchdog.due_ = last_pass + watchdog_time; }
         static void rest(Watchdog& watchdog, Instant) { watchdog.due_ = never; }
 
-        static constexpr StateRow<Watchdog, FirmwareState, Event, Instant> rows[] = {
-            {FirmwareState::running, Event::hang, FirmwareState::hung, nullptr, wait},
-            {FirmwareState::hung, Event::restart, FirmwareState::running, nullptr, rest},
+        static constexpr StateRow<Watchdog, FirmwareState, FirmwareEvent, Instant> rows[] = {
+            {FirmwareState::running, FirmwareEvent::hang, FirmwareState::hung, nullptr, wait},
+            {FirmwareState::hung, FirmwareEvent::restart, FirmwareState::running, nullptr, rest},
         };
         static_assert(declared<rows_flaw(machine_named(map::machines, "firmware"), rows)>());
 
-        static void run(Watchdog& watchdog, Event event, Instant last_pass) {
+        static void run(Watchdog& watchdog, FirmwareEvent event, Instant last_pass) {
             step(rows, watchdog.firmware_, event, watchdog, last_pass);
         }
     };

@@ -81,7 +81,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
 
   private:
     friend class Bus;
-    struct Steps;
+    struct SequenceActions;
 
     bool idle() const { return state_.fsm == State::S0 && state_.starts == never; }
     /// Next instant at which the card is due.

@@ -6,7 +6,7 @@
 namespace motionrack::grating_bus {
 
 /// What the card does as a state begins. after() gives the order of the states, LineOutputs their levels.
-struct Card::Steps {
+struct Card::SequenceActions {
     static void first_word(Card& card, Instant) { card.frames_.set_word(0); }
     static void next_word(Card& card, Instant) { card.frames_.set_word(card.frames_.word() + 1); }
     static void ask(Card& card, Instant) { card.state_.asks = 1; }
@@ -103,7 +103,7 @@ void Card::enter(State state, Instant now) {
     state_.fsm = state;
     state_.state_ends = state == State::S0 ? never : now + time_in(settings_.timing, state);
     lines_.enter(state);
-    if (const auto action = Steps::actions[static_cast<int>(state)]; action != nullptr) action(*this, now);
+    if (const auto action = SequenceActions::actions[static_cast<int>(state)]; action != nullptr) action(*this, now);
     if (before != state) wires_.show(state_.fsm);
 }
 

@@ -1,4 +1,4 @@
-// The automatic home search of an MCX314As: consecutive drives (map::home_drives), by the state table Steps.
+// The automatic home search of an MCX314As: consecutive drives (map::home_drives), by the state table HomeSteps.
 //
 //   62h ─► step 1 ─► step 2 ────────────────► step 3 ─► step 4 ─► end
 //           (3)       (8)     (12) ─► (15)     (20)      (25)             in brackets: HMST
@@ -44,7 +44,7 @@ bool home_found(State& state, int a) {
 
 /// The states of the map's machine "home search", in its order. From the state after a row's step on, the rows try the
 /// later steps in turn: the first one that is enabled and has something to do.
-struct ChipHomeSearch::Steps {
+struct ChipHomeSearch::HomeSteps {
     enum class State : std::uint8_t { idle, near, home, escape, again, index, offset };
     enum class Event : std::uint8_t { start, drive_ended };
 
@@ -185,7 +185,7 @@ void ChipHomeSearch::start(int a) {
     state_.extension[a].home = {};
     state_.homing |= 1u << a;
     inputs_.set_wants(a);
-    Steps::run(*this, Steps::Event::start, a);
+    HomeSteps::run(*this, HomeSteps::Event::start, a);
 }
 
 void ChipHomeSearch::go(int a, int hmst) {
@@ -214,7 +214,7 @@ void ChipHomeSearch::look() {
         const bool clearing = ext.home.cleared && ext.clear_until > state_.tick;
         if ((bit(state_.in_place, a) || clearing) && !ext.home.cancelled) return;
         for_each_axis(state_.working, [&](int i) { forward_.bring_up(i, state_.tick); });
-        Steps::run(*this, Steps::Event::drive_ended, a);
+        HomeSteps::run(*this, HomeSteps::Event::drive_ended, a);
         requests_.make_stale();
     });
 }

@@ -1,4 +1,4 @@
-// The automatic home search of an MCX314As. ChipHomeSearch::Steps in the .cpp file is the table of its states.
+// The automatic home search of an MCX314As. ChipHomeSearch::HomeSteps in the .cpp file is the table of its states.
 #pragma once
 
 #include <motionrack/cards/mcx314/chip/comparators.hpp>
@@ -43,7 +43,7 @@ class ChipHomeSearch {
     void ask_clear(int a);
 
   private:
-    struct Steps;
+    struct HomeSteps;
 
     /// Starts the drive of a state.
     void go(int a, int hmst);
