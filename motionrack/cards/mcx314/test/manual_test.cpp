@@ -2,8 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <iostream>
 #include <motionrack/cards/mcx314/driver/manual.hpp>
 #include <motionrack/cards/mcx314/test/home_rig.hpp>
+#include <random>
+#include <set>
+#include <string>
 
 namespace motionrack::mcx314 {
 namespace {
@@ -189,6 +193,106 @@ TEST(Manual, HasTheStatesOfTheDeclaredStateTable) {
     EXPECT_EQ(rig.manual.state_name(), "standing");
     ASSERT_TRUE(rig.manual.jog(10, rig.now()));
     EXPECT_EQ(rig.manual.state_name(), "jogging");
+}
+
+/// Compares each change of state with the declared table. A call may pass through standing: jog() notices first that
+/// the motion before has ended.
+struct WatchedManual : ManualRig {
+    std::set<std::string> taken;
+    std::string problem;
+
+    bool take(ManualState from, ManualState to) {
+        const MachineInfo& machine = manual_machine();
+        const auto name = [&](ManualState state) { return machine.states[static_cast<std::size_t>(state)].name; };
+        for (const TransitionInfo& t : machine.transitions)
+            if (t.from == name(from) && t.to == name(to)) {
+                taken.insert(std::string(t.from) + " -> " + std::string(t.to));
+                return true;
+            }
+        return false;
+    }
+    template <class Call>
+    void watch(const Call& call) {
+        const ManualState from = manual.state();
+        call();
+        const ManualState to = manual.state();
+        if (from == to || take(from, to)) return;
+        if (take(from, ManualState::standing) && take(ManualState::standing, to)) return;
+        problem += std::to_string(static_cast<int>(from)) + " -> " + std::to_string(static_cast<int>(to)) + "; ";
+    }
+    /// A poll every millisecond, each with `call` behind it.
+    template <class Call>
+    void poll(int ms, const Call& call) {
+        for (int i = 0; i < ms; ++i) {
+            watch([&] { manual.step(now()); });
+            watch(call);
+            port.pass(milliseconds(1));
+        }
+    }
+    void poll(int ms) {
+        poll(ms, [] {});
+    }
+    void jog(int ms, std::int64_t v) {
+        poll(ms, [&] { last = manual.jog(v, now()); });
+    }
+    void release_limit() {
+        kernel.release(kernel.find_wire("c.xlmtp"));
+        kernel.settle();
+    }
+};
+
+TEST(Manual, TakesEveryTransitionOfItsStateTableAndNoOther) {
+    WatchedManual rig;
+    rig.jog(300, 900);
+    rig.jog(200, -400);  // turns
+    rig.jog(2, 400);
+    rig.watch([&] { rig.last = rig.manual.jog(0, rig.now()); });  // stops within the turn
+    rig.jog(300, 400);                                            // turns out of the stop
+    rig.poll(600);                                                // not renewed
+    rig.watch([&] { rig.last = rig.manual.step_jog(100, 400); });
+    rig.poll(400);
+    rig.watch([&] { rig.last = rig.manual.step_jog(100'000, 400); });
+    rig.poll(100);
+    rig.watch([&] { rig.manual.stop(); });
+    rig.poll(200);
+    rig.watch([&] { rig.last = rig.manual.home(rig_settings(2), rig.now()); });
+    rig.poll(900);  // not renewed
+    rig.jog(200, 500);
+    rig.hold_wire("c.xlmtp", 0);
+    rig.jog(200, 500);  // the limit ends the jog
+    rig.release_limit();
+    rig.jog(200, -500);
+    rig.jog(2, 400);
+    rig.hold_wire("c.xlmtp", 0);
+    rig.poll(200);  // stands at the limit of the new direction
+    EXPECT_EQ(rig.problem, "");
+    for (const TransitionInfo& t : manual_machine().transitions) {
+        const std::string way = std::string(t.from) + " -> " + std::string(t.to);
+        EXPECT_EQ(rig.taken.count(way), 1u) << way << " was never taken";
+    }
+}
+
+TEST(Manual, TakesOnlyTransitionsOfItsStateTableInRandomOperation) {
+    constexpr unsigned seed = 1;
+    std::cout << "seed " << seed << std::endl;
+    std::mt19937 random(seed);
+    const auto pick = [&](std::uint32_t n) { return static_cast<std::int64_t>(random() % n); };
+    WatchedManual rig;
+    for (int i = 0; i < 150; ++i) {
+        const std::int64_t what = pick(7), v = (pick(2) == 0 ? 1 : -1) * (1 + pick(900));
+        rig.watch([&] {
+            if (what == 0) rig.last = rig.manual.jog(0, rig.now());
+            if (what == 1) rig.last = rig.manual.step_jog(v, 1 + pick(900));
+            if (what == 2) rig.last = rig.manual.home(rig_settings(2), rig.now());
+            if (what == 3) rig.manual.stop();
+        });
+        if (what < 4)
+            rig.poll(static_cast<int>(1 + pick(300)));
+        else
+            rig.jog(static_cast<int>(1 + pick(200)), v);
+    }
+    EXPECT_EQ(rig.problem, "");
+    EXPECT_GE(rig.taken.size(), 8u);
 }
 
 }  // namespace
