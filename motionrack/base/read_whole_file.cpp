@@ -13,7 +13,7 @@ namespace {
 
 tl::unexpected<Error> not_readable(const std::string& name, const std::string& why) {
     return fail(ErrorKind::io,
-                fmt::format("{} cannot be read: {}. Nothing was done; check the name and the rights.", name, why));
+                fmt::format("{} cannot be read: {}. Nothing was done; check the name and the permissions.", name, why));
 }
 
 std::string size_text(std::size_t bytes) {

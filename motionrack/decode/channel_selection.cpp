@@ -46,8 +46,9 @@ Result<std::size_t> find_signal(const std::vector<std::string>& signals, std::st
         if (ends_with_name(plain(signals[i]), wanted)) fitting.push_back(signals[i]), last = i;
     if (fitting.size() == 1) return last;
     if (fitting.size() > 1)
-        return fail(ErrorKind::invalid_input,
-                    fmt::format("'{}' may be {}. Nothing was decoded; write more of the name.", text, listed(fitting)));
+        return fail(
+            ErrorKind::invalid_input,
+            fmt::format("'{}' matches {}. Nothing was decoded; write more of the name.", text, listed(fitting)));
     std::size_t number = 0;
     const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (bad == std::errc() && end == text.data() + text.size() && number < signals.size()) return number;

@@ -97,7 +97,7 @@ Result<std::unique_ptr<Capture>> open_raw(std::unique_ptr<Source> source, const 
     if (settings.sample_bytes < 1 || settings.sample_bytes > 8)
         return fail(
             ErrorKind::refused,
-            fmt::format("A raw sample of {} bytes: 1 to 8 can be read. Nothing was decoded.", settings.sample_bytes));
+            fmt::format("A raw sample has {} bytes; it must have 1 to 8. Nothing was decoded.", settings.sample_bytes));
     if (!(settings.sample_rate_hz > 0))
         return fail(ErrorKind::invalid_input,
                     "A raw capture has no sample rate. Nothing was decoded; add --sample-rate 24M, "

@@ -71,7 +71,7 @@ Result<std::unique_ptr<Source>> open_file(const std::string& path) {
     std::FILE* file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
     if (!file)
         return fail(ErrorKind::io,
-                    fmt::format("{} cannot be read: {}. Nothing was decoded; check the name and the rights.", path,
+                    fmt::format("{} cannot be read: {}. Nothing was decoded; check the name and the permissions.", path,
                                 std::generic_category().message(errno)));
     return std::make_unique<FileSource>(file, path);
 }

@@ -155,7 +155,7 @@ SettingResult change_setting(const rack::RackConfig& config, SessionSettingValue
     if (found->own == nullptr) return of_the_rack(number, value, found->rack(config), found->decimals);
     if (value > found->max || value != std::floor(value))
         return {error_bad_number,
-                fmt::format("${} is a whole number, 0 to {:.0f}. It was not changed", number, found->max)};
+                fmt::format("${} must be a whole number, 0 to {:.0f}. It was not changed", number, found->max)};
     own.*found->own = value;
     return {0, fmt::format("${} is {:.0f}", number, value)};
 }

@@ -323,7 +323,7 @@ Result<ChainCheck> Journal::check() const {
 Result<std::vector<Entry>> Journal::read(const JournalQuery& question) const {
     if (question.limit < 1 || question.limit > 10000)
         return fail(ErrorKind::invalid_input,
-                    fmt::format("The journal gives 1 to 10000 entries at once, not {}.", question.limit));
+                    fmt::format("The limit of a journal query is {}; it must be 1 to 10000.", question.limit));
     const std::lock_guard<std::mutex> guard(reading_);
     Statement select(
         reader_->get(),

@@ -56,9 +56,9 @@ Result<void> ClockPacer::step(Duration duration) {
         return fail(ErrorKind::refused,
                     fmt::format("Time steps need a paused clock; its mode is '{}'. Pause it first.", name_of(mode_)));
     if (duration <= Duration{0} || duration > whole_seconds(3600))
-        return fail(
-            ErrorKind::invalid_input,
-            fmt::format("A step of time is 100 ps to 3600 s, not {} s. Nothing was changed.", to_seconds(duration)));
+        return fail(ErrorKind::invalid_input,
+                    fmt::format("The time step is {} s; it must be 100 ps to 3600 s. Nothing was changed.",
+                                to_seconds(duration)));
     step_end_ = std::max(step_end_, last_) + duration;
     return {};
 }

@@ -36,7 +36,7 @@ Result<void> check_number(const OperationSpec& row, const FieldSpec& field, cons
                      fmt::format("{} must be a number ({}), not {}.", field.name, range_of(field), value.type_name()));
     const double number = value.get<double>();
     if (!std::isfinite(number) || number < field.min || number > field.max)
-        return wrong(row, fmt::format("{} is {}; {} is possible.", field.name, number, range_of(field)));
+        return wrong(row, fmt::format("{} is {}; it must be {}.", field.name, number, range_of(field)));
     if (field.type == ParameterType::integer && number != std::floor(number))
         return wrong(row, fmt::format("{} is {}, but must be a whole number.", field.name, number));
     return {};

@@ -197,7 +197,10 @@ void Panel::ask(const Caller& caller, std::string_view name, const json& fields,
         const auto& handlers = inside_->context().settings.external;
         const auto found = handlers.find(row->name);
         if (found == handlers.end())
-            return reply(refused_answer(409, "refused", fmt::format("{} is not possible here.", row->name)));
+            return reply(refused_answer(409, "refused",
+                                        fmt::format("{} is not available: the machine is not served over a network. "
+                                                    "Nothing was done.",
+                                                    row->name)));
         return reply(found->second(caller, fields));
     }
     inside_->context().machine.post([this, row, caller, fields, answer = Reply(std::move(reply))] {

@@ -55,10 +55,11 @@ Scope::~Scope() {
 Result<void> Scope::arm(const ScopeSettings& settings) {
     if (settings.channels.empty() || settings.channels.size() > max_channels)
         return fail(ErrorKind::invalid_input,
-                    fmt::format("{} channels are not possible; 1 to {} are.", settings.channels.size(), max_channels));
+                    fmt::format("{} channels were chosen; it must be 1 to {}. Nothing was armed.",
+                                settings.channels.size(), max_channels));
     if (settings.length <= Duration{0} || settings.pre < Duration{0} || settings.pre > settings.length)
         return fail(ErrorKind::invalid_input,
-                    "The part before the trigger must lie within the length, which must be above 0.");
+                    "The length must be above 0, and the part before the trigger within it. Nothing was armed.");
     std::vector<std::string> wires;
     std::vector<NumericChannel> numbers;
     for (std::size_t i = 0; i < settings.channels.size(); ++i) {

@@ -70,13 +70,13 @@ class AxisCheck {
         }
         if (channel_index(config_, axis_) < 0) {
             const std::string said = axis_.channel.empty() ? "no channel" : "the channel " + in_quotes(axis_.channel);
-            error(
-                "channel", {},
-                type->channels.empty()
-                    ? fmt::format("Axis {} names {}; a card of type {} has but one, without a name: leave the key out.",
-                                  axis_.letter, said, type->name)
-                    : fmt::format("Axis {} names {}; a card of type {} has the channels {}.", axis_.letter, said,
-                                  type->name, fmt::join(type->channels, " ")));
+            error("channel", {},
+                  type->channels.empty()
+                      ? fmt::format(
+                            "Axis {} names {}; a card of type {} has only one, without a name: leave the key out.",
+                            axis_.letter, said, type->name)
+                      : fmt::format("Axis {} names {}; a card of type {} has the channels {}.", axis_.letter, said,
+                                    type->name, fmt::join(type->channels, " ")));
             return;
         }
         for (const RackAxis& other : config_.axes) {
@@ -125,8 +125,8 @@ class AxisCheck {
         }
         if (s.home && !inside(*s.home, low, high)) {
             error("home_{u}", "switches",
-                  fmt::format("home_{0} of axis {1} is {2}, where the axis cannot go: its ends are at {3} and {4} {0}.",
-                              u, axis_.letter, number_text(*s.home), number_text(low), number_text(high)));
+                  fmt::format("home_{0} of axis {1} is {2}, outside of its travel, {3} to {4} {0}.", u, axis_.letter,
+                              number_text(*s.home), number_text(low), number_text(high)));
         }
         cam();
         if (s.limit_minus && low >= axis_.min_limit)

@@ -93,9 +93,8 @@ class ConveyorPart final : public TablePart<RunningConveyor> {
                                                         velocity_name(), in_quotes(quantity_name)));
         const double max_velocity = running_.config.max_velocity();
         if (!(std::fabs(value) <= max_velocity))
-            return fail(ErrorKind::refused,
-                        fmt::format("{} cannot become {}: {:.6g} to {:.6g} are possible. Nothing was done.",
-                                    full_name(quantity_name), value, -max_velocity, max_velocity));
+            return fail(ErrorKind::refused, fmt::format("{} is {}; it must be {:.6g} to {:.6g}. Nothing was done.",
+                                                        full_name(quantity_name), value, -max_velocity, max_velocity));
         return fmt::format("{}={:.17g}", velocity_fault, value);
     }
 

@@ -147,7 +147,7 @@ class ConveyorReader {
         if (!(s.delay_us < max_delay_us))
             return reader_.refuse(
                 table, "delay_us",
-                fmt::format("a delay of {} us with a reading every {} us is too long; less than {} us is possible.",
+                fmt::format("the delay is {} us with a reading every {} us; it must be less than {} us.",
                             number_text(s.delay_us), number_text(s.period_us), number_text(max_delay_us)));
         const parts::Conveyor made = *parts::Conveyor::make(track_.settings());
         if (const auto sender = parts::SerialPositionSource::make(made, s); !sender)

@@ -56,7 +56,7 @@ Result<void> FaultSchedule::read_action(const std::string& text, std::string_vie
         fault.value = number_of(value);
         if (std::isnan(fault.value) && value != "release")
             return fail(ErrorKind::invalid_input,
-                        fmt::format("The fault {}: the value of a wire is 0, 1 or release, not {}. Nothing was "
+                        fmt::format("The fault {}: the value of a wire must be 0, 1 or release, not {}. Nothing was "
                                     "moved.",
                                     in_quotes(text), in_quotes(value)));
         return context_.check(name, fault.value);

@@ -50,8 +50,8 @@ Result<FaultAtPart> find_fault(Rack& rack, std::string_view fault, std::string_v
         found.value = number_of(text);
         if (!(std::fabs(found.value) <= max_push))
             return fail(ErrorKind::refused,
-                        fmt::format("The value of {} is {}; it is a number from {:.0f} to {:.0f}. Nothing was done.",
-                                    found.name, in_quotes(text), -max_push, max_push));
+                        fmt::format("The value of {} is {}; it must be {:.0f} to {:.0f}. Nothing was done.", found.name,
+                                    in_quotes(text), -max_push, max_push));
     }
     if (!found.part->can_have(found.name))
         return fail(ErrorKind::refused, fmt::format("{} has no part with the fault {}; see its section of the rack "

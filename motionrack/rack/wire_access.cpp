@@ -161,15 +161,15 @@ Result<void> WireAccess::check(std::string_view name, double value) const {
     if (wire.unit != 1) {
         if (std::fabs(value) <= max_volts) return {};
         return fail(ErrorKind::refused,
-                    fmt::format("{} cannot be driven with {} V; it takes -{} .. {} V. Nothing was done.", name, value,
-                                max_volts, max_volts));
+                    fmt::format("{} cannot be driven with {} V; the voltage must be -{} to {} V. Nothing was done.",
+                                name, value, max_volts, max_volts));
     }
     if (wire.bits > 1) {
         const double half_range = std::ldexp(1.0, wire.bits - 1);
         if (value >= -half_range && value < half_range && value == std::floor(value)) return {};
         return fail(
             ErrorKind::refused,
-            fmt::format("{} cannot be driven with {}: it takes whole numbers from {:.0f} to {:.0f}. Nothing was done.",
+            fmt::format("{} cannot be driven with {}: the value must be whole, {:.0f} to {:.0f}. Nothing was done.",
                         name, value, -half_range, half_range - 1));
     }
     if (value != 0 && value != 1)

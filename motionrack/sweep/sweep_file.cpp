@@ -71,10 +71,9 @@ class Reader {
             problems_.error(node.location_of("sampling"),
                             "A random sweep needs points = NUMBER: the number of random points.");
         if (!random_ && settings.points)
-            problems_.error(
-                node.location_of("points"),
-                "points says the number of random points by chance, but this sweep takes all combinations; write "
-                "sampling = \"random\", or leave points out.");
+            problems_.error(node.location_of("points"),
+                            "points is the number of random points, but this sweep takes all combinations; write "
+                            "sampling = \"random\", or leave points out.");
     }
 
     void read_vary(const TomlNode& vary) {
@@ -96,7 +95,7 @@ class Reader {
         if (problems_.any_errors()) return;
         if (const std::int64_t points = file_.points(); points > max_points)
             problems_.error(vary.key_location,
-                            fmt::format("The sweep has {} points, more than the {} that can be; take fewer steps, or "
+                            fmt::format("The sweep has {} points; the limit is {}; take fewer steps, or "
                                         "sampling = \"random\" with points.",
                                         points == std::numeric_limits<std::int64_t>::max() ? "far more than 10^18"
                                                                                            : std::to_string(points),

@@ -12,7 +12,7 @@ namespace {
 
 tl::unexpected<Error> not_readable(const std::string& path, int why) {
     return fail(ErrorKind::io,
-                fmt::format("The file cannot be read: {}. Check the name and the rights.",
+                fmt::format("The file cannot be read: {}. Check the name and the permissions.",
                             std::generic_category().message(why)),
                 {}, path);
 }

@@ -278,7 +278,7 @@ Result<void> check_signature(const std::string& path) {
                 fmt::format("The file does not exist, but an incomplete one does, cut off or being written: {}.", part),
                 {}, path);
         return fail(ErrorKind::io,
-                    fmt::format("The file cannot be read: {}. Check the name and the rights.",
+                    fmt::format("The file cannot be read: {}. Check the name and the permissions.",
                                 std::generic_category().message(why_not)),
                     {}, path);
     }

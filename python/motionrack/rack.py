@@ -134,7 +134,7 @@ class Rack:
         and is part of the event trace then.
         """
         if level not in (0, 1):
-            raise Refused(f"The level of a wire is 0 or 1, not {level}. Nothing was run.")
+            raise Refused(f"The level of {name} is {level}; it must be 0 or 1. Nothing was run.")
         if not self._world.wait_wire(name, level, ticks_of(timeout)):
             raise Timeout(f"{name} did not reach {level} within {timeout:g} s; the rack is at {self.time:.9g} s.")
 

@@ -116,7 +116,7 @@ class Trace(Mapping[str, Values]):
             for title, members in charts
         ]
         if not drawn or len(self._ticks) < 2:
-            raise InvalidInput("There is nothing to draw: a picture needs two instants and a signal.")
+            raise InvalidInput("Nothing was drawn: a picture needs at least two instants and one signal.")
         return _core.svg_timeline(self.title, self.time, drawn, [], width, height or min(10000, 60 + 160 * len(drawn)))
 
     def plot(self, *names: str, path: str | None = None) -> Any:
@@ -138,7 +138,7 @@ class Trace(Mapping[str, Values]):
             return self
         charts = self._charts(names)
         if not charts:
-            raise InvalidInput("There is nothing to draw: the trace has no signals.")
+            raise InvalidInput("Nothing was drawn: the trace has no signals.")
         figure = Figure(figsize=(9, 1.2 + 1.9 * len(charts)), layout="constrained")
         axes = figure.subplots(len(charts), 1, sharex=True, squeeze=False)[:, 0]
         for plot, (title, members) in zip(axes, charts):

@@ -274,7 +274,7 @@ void bind_answers(Rtc5Class& c) {
         "question_seconds", [](const Rtc5& self) { return to_seconds(self.question_time); },
         [](Rtc5& self, double seconds) {
             const Duration time = duration(seconds);
-            if (time > whole_seconds(1000)) refuse("A query takes 0 to 1000 s.");
+            if (time > whole_seconds(1000)) refuse("The duration of a query must be 0 to 1000 s.");
             self.question_time = time;
         },
         "Duration of a query, s; initially 10 us.");

@@ -101,8 +101,8 @@ bool CutterCompensation::allows() {
     if (was_on && next().system != modes().system) return forbid(column_of(g_system), "the work offset cannot change");
     if (frame_now().is_rotated && next().plane != 0) {
         return fail_at(column_of(g_cutter), GrblStatus::unsupported,
-                       fmt::format("the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation "
-                                   "is possible in G17 only",
+                       fmt::format("the work system is rotated by {:.6g} degrees (G10 L2 R); cutter compensation is "
+                                   "then possible in G17 only; write G17, or end the rotation",
                                    frame_now().rotation_deg[next().system]));
     }
     if (was_on && block().has_g(g_tool_length) && frame_now().tool != frame().tool)

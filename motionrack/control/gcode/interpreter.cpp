@@ -83,7 +83,7 @@ bool Interpreter::assign() {
         if (++(is_global(parameter.name) ? global : local) > state_.parameters.capacity_for(parameter.name)) {
             return state_.words.fail_at(
                 block().text.find('#'), GrblStatus::unsupported,
-                fmt::format("#<{}> is one named parameter too many; there may be {}", parameter.name, max_names));
+                fmt::format("#<{}> exceeds the limit of {} named parameters; reuse one", parameter.name, max_names));
         }
     }
     for (const auto& [parameter, value] : block().assignments) {

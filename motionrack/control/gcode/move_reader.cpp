@@ -150,8 +150,8 @@ bool MoveReader::exceeds_travel(int axis, double value, std::size_t column) {
 bool MoveReader::in_turned_plane(std::int16_t code) {
     if (!frame_now().is_rotated || next().plane == 0) return true;
     return fail_at(error_column(), GrblStatus::unsupported,
-                   fmt::format("{} in {}: the work system is turned by {:.6g} degrees (G10 L2 R), where arcs and "
-                               "cycles are possible in G17 only",
+                   fmt::format("{} in {}: the work system is rotated by {:.6g} degrees (G10 L2 R); arcs and cycles "
+                               "are then possible in G17 only; write G17, or end the rotation",
                                name_of_g(code), plane_names[next().plane], frame_now().rotation_deg[next().system]));
 }
 

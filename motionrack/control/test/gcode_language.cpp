@@ -213,7 +213,7 @@ TEST(GcodeParameters, OfALineAreAllSetOrNone) {
         testing::machine());
     ASSERT_EQ(read.problems.size(), 1u);
     EXPECT_EQ(read.problems[0].location.line, 1000);
-    EXPECT_THAT(read.problems[0].message, HasSubstr("#<too_many> is one named parameter too many; there may be 1000"));
+    EXPECT_THAT(read.problems[0].message, HasSubstr("#<too_many> exceeds the limit of 1000 named parameters"));
     ASSERT_EQ(read.moves().size(), 1u);
     EXPECT_EQ(read.moves()[0].end[0], 0);
     EXPECT_EQ(read.moves()[0].end[1], 5);

@@ -316,7 +316,7 @@ TEST(Channels, AreRejectedWithTheAvailableLines) {
     for (const char* text : {"X", "X=a", "=a,b", "X=x.a,y.b,,", "X=x.a,", "X=x.a,x.a", "X=x.a,y.b,q", "X=a,y.b"})
         EXPECT_FALSE(choose_channels(lines, {text})) << text;
     EXPECT_TRUE(has(choose_channels(lines, {"X=q,r"}).error().message, "x.a, y.a, y.b"));
-    EXPECT_TRUE(has(choose_channels(lines, {"X=a,y.b"}).error().message, "'a' may be x.a, y.a"));
+    EXPECT_TRUE(has(choose_channels(lines, {"X=a,y.b"}).error().message, "'a' matches x.a, y.a"));
     EXPECT_TRUE(has(choose_channels(lines, {"X=1,2", "X=0,1"}).error().message, "Two channels have the name 'X'"));
     EXPECT_TRUE(has(choose_channels({"p", "q"}, {}).error().message, "--channel"));
 }

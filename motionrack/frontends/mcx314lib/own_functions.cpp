@@ -83,7 +83,7 @@ int change_interrupts(const char* who, int axis, int causes,
     return on_axes(who, axis, [&](OpenChip& chip, unsigned axes) -> Result<void> {
         if (causes < 1 || causes > motionrack::mcx314::cause::all)
             return fail(ErrorKind::refused,
-                        fmt::format("the causes are {}, but they are 1 to 255, bits of enum mcx314_cause. "
+                        fmt::format("the causes are {}; they must be 1 to 255, bits of enum mcx314_cause. "
                                     "Nothing was written.",
                                     causes));
         return (chip.driver.*function)(axes, static_cast<std::uint16_t>(causes));
@@ -300,7 +300,7 @@ int mcx314_pattern_steps(const MCX314_STEPS* steps) {
         for (std::size_t i = 0; i < 3; ++i) {
             if (steps->plus[i] > 0xFFFF || steps->minus[i] > 0xFFFF)
                 return fail(ErrorKind::refused,
-                            fmt::format("the words of the axis number {} are {} and {}, but they are 0 to 65535. "
+                            fmt::format("the words of the axis number {} are {} and {}; they must be 0 to 65535. "
                                         "Nothing was written.",
                                         i + 1, steps->plus[i], steps->minus[i]));
             word.plus[i] = static_cast<std::uint16_t>(steps->plus[i]);

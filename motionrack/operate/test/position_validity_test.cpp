@@ -248,7 +248,7 @@ TEST(SecondIndex, IsReportedFromTheSecondHomingOn) {
     const Status& status = o.machine->status();
     EXPECT_FALSE(status.axes[0].position_valid);
     ASSERT_THAT(status.alarms, testing::SizeIs(1));
-    EXPECT_THAT(status.alarms[0].text, HasSubstr("behind the switch, where it should be 2.0000 mm behind it"));
+    EXPECT_THAT(status.alarms[0].text, HasSubstr("behind the switch; it must be 2.0000 mm behind it"));
 }
 
 }  // namespace

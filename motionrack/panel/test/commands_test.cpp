@@ -35,7 +35,7 @@ TEST(AskingThePanel, NeedsTheRoleTheLeaseAndAKnownName) {
     a.at(0.1, bert, "enable", {{"on", true}}, refused(409, ""));
     a.at(0.1, bert, "set_wire", {{"name", "estop"}, {"value", 0}}, refused(403, "needs the role maintain"));
     a.at(0.1, anna, "fly", json::object(), refused(404, "Unknown command or query 'fly'"));
-    a.at(0.1, anna, "invite", {{"role", "observe"}}, refused(409, "not possible here"));
+    a.at(0.1, anna, "invite", {{"role", "observe"}}, refused(409, "invite is not available"));
     a.run(0.3);
     EXPECT_EQ(a.machine->state(), operate::MachineState::disabled);
 }
@@ -45,7 +45,7 @@ TEST(AskingThePanel, ChecksFieldsWithASentence) {
     a.good(0.1, "take_control");
     a.at(0.2, anna, "jog", {{"axis", "X"}}, refused(400, "speed is missing"));
     a.at(0.2, anna, "jog", {{"axis", "X"}, {"speed", "fast"}}, refused(400, "must be a number"));
-    a.at(0.2, anna, "jog", {{"axis", "X"}, {"speed", 1e9}}, refused(400, "is possible"));
+    a.at(0.2, anna, "jog", {{"axis", "X"}, {"speed", 1e9}}, refused(400, "it must be"));
     a.at(0.2, anna, "jog", {{"axis", "X"}, {"speed", std::nan("")}}, refused(400, "speed"));
     a.at(0.2, anna, "jog", {{"axis", "X"}, {"speed", 1}, {"sped", 1}}, refused(400, "no field 'sped'"));
     a.at(0.2, anna, "jog", json::array(), refused(400, "must be a JSON object"));

@@ -173,7 +173,7 @@ TEST(Databoard4002InARack, WrongRackFilesAreRefusedWithTheLocation) {
     const RackReading axis =
         read_rack_text("[card.c1]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"c1\"\nchannel = \"x\"\n");
     ASSERT_FALSE(axis.errors.empty());
-    EXPECT_THAT(axis.errors[0].message, HasSubstr("has but one, without a name: leave the key out"));
+    EXPECT_THAT(axis.errors[0].message, HasSubstr("has only one, without a name: leave the key out"));
     EXPECT_THAT(Session::open("card.c1 = \"databoard4002\"").value()->part("c1.speed").error().message,
                 HasSubstr("fout_hz"));
 }

@@ -168,7 +168,7 @@ TEST(RackHomes, ToTheIndexOfTheFirstHomingOnly) {
     seen[0] = 4;  // as if another index had come first
     const HomingOutcome moved = home_axes(rack, settings);
     ASSERT_FALSE(moved.ended);
-    EXPECT_THAT(moved.ended.error().message, HasSubstr("2.0000 mm behind the switch, where it should be 4.0000 mm"));
+    EXPECT_THAT(moved.ended.error().message, HasSubstr("2.0000 mm behind the switch; it must be 4.0000 mm"));
     EXPECT_FALSE(moved.all_homed());
     EXPECT_EQ(seen[0], 4) << "a search that failed teaches nothing";
 }

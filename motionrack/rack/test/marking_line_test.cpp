@@ -175,7 +175,7 @@ TEST(MarkingLine, TheVelocityCanBeChangedAndTheEncoderBroken) {
     EXPECT_LE(std::llabs(bench.peek("ENCODER0") - broken), 2) << "one line alone goes to and fro";
     EXPECT_THAT(bench.session->set_part("line.position_mm", 0).error().message, HasSubstr("only speed_mm_s"));
     EXPECT_THAT(bench.session->set_part("line.speed_mm_s", NAN).error().message,
-                HasSubstr("-10000 to 10000 are possible"));
+                HasSubstr("it must be -10000 to 10000"));
     EXPECT_FALSE(bench.session->fault("drive.speed=20000", "line"));
     EXPECT_THAT(bench.session->fault("sender.silent", "line").error().message, HasSubstr("drive.speed"));
     EXPECT_THAT(bench.session->part("line.height").error().message, HasSubstr("encoder_counts"));
@@ -291,7 +291,7 @@ TEST(MarkingLine, InconsistentSettingsAreReportedWithTheirLocation) {
     EXPECT_THAT(refused("[belt.one]\ncard = \"scan\"\n[belt.two]\ncard = \"scan\"\n"),
                 HasSubstr("encoder input 0 of card scan has the encoder of one"));
     EXPECT_THAT(refused("[belt.line]\n[belt.line.sender]\nperiod_us = 10\ndelay_us = 5000\n"),
-                HasSubstr("2550 us is possible"));
+                HasSubstr("it must be less than 2550 us"));
     EXPECT_THAT(refused("[belt.line]\n[belt.line.sender]\nbits_per_mm = 0\n"),
                 HasSubstr("a sender needs bits other than 0"));
     EXPECT_THAT(refused("[belt.line]\n[belt.line.parts]\npart_pitch_mm = 5\n"),

@@ -80,7 +80,7 @@ TEST(StageSections, ReportInconsistentSettings) {
         {stage + "[stage.other]\ncard = \"second\"\ninput = 1\n", "output 0 of card second drives stage mask already."},
         {stage + "[stage.other]\ncard = \"host\"\ninput = 2\n",
          "scale 2 of the decoder is that of stage mask already."},
-        {stage + "start_mm = 2000\n", "it starts at 2000 mm, beyond its ends of travel at -1000 and 1000 mm."},
+        {stage + "start_mm = 2000\n", "it starts at 2000 mm, outside of its travel, -1000 to 1000 mm."},
         {stage + "hard_stop_minus_mm = 5\nhard_stop_plus_mm = 5\n", "the first must be the smaller."},
         {stage + "scale = { interpolation = 6 }\n", "6 counts of a pitch are no multiple of 4"},
         {stage + "scale = { pitch_um = 0.0012345 }\n", "a pitch of 0.0012345 um is not a whole number of picometres"},

@@ -27,14 +27,13 @@ double radians_per_bit(const ScanLens& lens) {
 Result<void> check(const ScanLens& lens) {
     const auto ranged = [](double v, double min, double max) { return v >= min && v <= max; };
     if (!ranged(lens.f_mm[0], 1, 10'000))
-        return fail(ErrorKind::refused,
-                    fmt::format("a lens with f1 = {} mm: 1 to 10000 mm can be computed", lens.f_mm[0]));
+        return fail(ErrorKind::refused, fmt::format("f1 of the lens is {} mm; it must be 1 to 10000 mm", lens.f_mm[0]));
     if (!ranged(lens.calibration_deg, 1, 22))
-        return fail(
-            ErrorKind::refused,
-            fmt::format("an angle calibration of {} degrees: 1 to 22 degrees can be computed", lens.calibration_deg));
+        return fail(ErrorKind::refused, fmt::format("the angle calibration is {} degrees; it must be 1 to 22 degrees",
+                                                    lens.calibration_deg));
     if (!ranged(lens.bits_per_mm, 1, 1e6))
-        return fail(ErrorKind::refused, fmt::format("{} bits/mm: 1 to 1000000 can be computed", lens.bits_per_mm));
+        return fail(ErrorKind::refused,
+                    fmt::format("the lens has {} bits/mm; it must be 1 to 1000000", lens.bits_per_mm));
     const double corner = 1.5 * radians_per_bit(lens) * full_bits;
     for (int i = 0; i <= 64; ++i) {
         const double theta = corner * i / 64;

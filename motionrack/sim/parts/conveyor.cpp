@@ -44,30 +44,30 @@ double time_for(double distance, double velocity, double accel) {
 
 Result<Conveyor> Conveyor::make(const ConveyorSettings& s) {
     const auto refuse = [](std::string why) { return fail(ErrorKind::refused, std::move(why)); };
-    if (s.profile.empty()) return refuse("a track without a velocity: its profile needs a point at least");
+    if (s.profile.empty()) return refuse("the velocity profile is empty; it must have at least one point");
     for (std::size_t i = 0; i < s.profile.size(); ++i) {
         const VelocityPoint& p = s.profile[i];
         if (!within(p.at_s, 0, 1e6) || (i > 0 && p.at_s <= s.profile[i - 1].at_s))
-            return refuse(fmt::format("point {} of the velocity profile is at {} s: times are 0 to 1000000 s and rise",
-                                      i + 1, p.at_s));
+            return refuse(fmt::format(
+                "point {} of the velocity profile is at {} s; times must rise, from 0 to 1000000 s", i + 1, p.at_s));
         if (!within(p.velocity, -max_track_velocity, max_track_velocity))
             return refuse(
-                fmt::format("point {} of the velocity profile has the velocity {}: -100000 to 100000 are possible",
-                            i + 1, p.velocity));
+                fmt::format("point {} of the velocity profile has the velocity {}; it must be -100000 to 100000", i + 1,
+                            p.velocity));
     }
     if (!within(std::abs(s.counts_per_unit), 1e-6, 1e9))
-        return refuse(fmt::format("an encoder with {} counts a unit: 0.000001 to 1e9 are possible, or negative",
+        return refuse(fmt::format("the encoder has {} counts a unit; it must be 0.000001 to 1e9, or negative",
                                   s.counts_per_unit));
     if (!within(s.deceleration, 1, 1e7))
-        return refuse(fmt::format("a deceleration of {}: 1 to 1e7 are possible", s.deceleration));
-    if (!within(s.slip, -0.5, 0.5)) return refuse(fmt::format("a slip of {}: -0.5 to 0.5 are possible", s.slip));
+        return refuse(fmt::format("the deceleration is {}; it must be 1 to 1e7", s.deceleration));
+    if (!within(s.slip, -0.5, 0.5)) return refuse(fmt::format("the slip is {}; it must be -0.5 to 0.5", s.slip));
     if (!within(s.jitter_counts, 0, 1000))
-        return refuse(fmt::format("a jitter of {} counts: 0 to 1000 are possible", s.jitter_counts));
+        return refuse(fmt::format("the jitter is {} counts; it must be 0 to 1000", s.jitter_counts));
     if (!within(s.direction_deg, -3600, 3600))
-        return refuse(fmt::format("a direction of {} degrees: -3600 to 3600 are possible", s.direction_deg));
+        return refuse(fmt::format("the direction is {} degrees; it must be -3600 to 3600", s.direction_deg));
     if (!within(s.centre_mm.x, -1e5, 1e5) || !within(s.centre_mm.y, -1e5, 1e5))
         return refuse(
-            fmt::format("a centre at ({}, {}) mm: -100000 to 100000 are possible", s.centre_mm.x, s.centre_mm.y));
+            fmt::format("the centre is ({}, {}) mm; both must be -100000 to 100000", s.centre_mm.x, s.centre_mm.y));
     Conveyor out;
     out.settings_ = s;
     const SinCos t = sin_cos(s.direction_deg * (pi / 180));

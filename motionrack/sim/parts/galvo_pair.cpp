@@ -36,12 +36,12 @@ Result<void> check(const GalvoSettings& s) {
     const auto range = [](const char* name, double value, double min, double max) -> Result<void> {
         if (value >= min && value <= max) return {};
         return fail(ErrorKind::refused,
-                    fmt::format("mirrors with {} {}: {} to {} are possible", name, value, min, max));
+                    fmt::format("the {} of the mirrors is {}; it must be {} to {}", name, value, min, max));
     };
-    MOTIONRACK_CHECK(range("a dead time in us of", s.dead_time_us, 0, max_dead_time_us));
-    MOTIONRACK_CHECK(range("a natural frequency in Hz of", s.natural_frequency_hz, 10, 20'000));
-    MOTIONRACK_CHECK(range("a damping of", s.damping_ratio, 0.1, 10));
-    return range("a maximum velocity in bits/ms of", s.max_velocity_bits_ms, 1, 1e9);
+    MOTIONRACK_CHECK(range("dead time in us", s.dead_time_us, 0, max_dead_time_us));
+    MOTIONRACK_CHECK(range("natural frequency in Hz", s.natural_frequency_hz, 10, 20'000));
+    MOTIONRACK_CHECK(range("damping ratio", s.damping_ratio, 0.1, 10));
+    return range("maximum velocity in bits/ms", s.max_velocity_bits_ms, 1, 1e9);
 }
 
 GalvoPair::GalvoPair(const GalvoSettings& settings) : settings_(settings), limit_(settings.max_velocity_bits_ms / 100) {

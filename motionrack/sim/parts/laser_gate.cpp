@@ -9,7 +9,7 @@ Result<LaserGate> LaserGate::make(const LaserSettings& s) {
     const auto within = [](double v, double max) { return v >= 0 && v <= max; };
     if (!within(s.power_w, 1e5) || !within(s.on_delay_us, 1e5) || !within(s.off_delay_us, 1e5))
         return fail(ErrorKind::refused,
-                    fmt::format("a laser of {} W with delays of {} and {} us: 0 to 100000 each are possible", s.power_w,
+                    fmt::format("the laser has {} W and delays of {} and {} us; each must be 0 to 100000", s.power_w,
                                 s.on_delay_us, s.off_delay_us));
     LaserGate out;
     out.settings_ = s;

@@ -16,10 +16,11 @@ Result<MarkingStation> MarkingStation::make(const StationSettings& settings, con
     MOTIONRACK_CHECK(check(settings.galvo));
     if (settings.lens) MOTIONRACK_CHECK(sim::check(*settings.lens));
     if (!(settings.bits_per_mm >= 1 && settings.bits_per_mm <= 1e6))
-        return fail(ErrorKind::refused, fmt::format("{} bits/mm: 1 to 1000000 are possible", settings.bits_per_mm));
+        return fail(ErrorKind::refused,
+                    fmt::format("the field has {} bits/mm; it must be 1 to 1000000", settings.bits_per_mm));
     if (!(settings.workpiece.tolerance_mm >= 0 && settings.workpiece.tolerance_mm <= 10))
         return fail(ErrorKind::refused,
-                    fmt::format("a tolerance of {} mm: 0 to 10 are possible", settings.workpiece.tolerance_mm));
+                    fmt::format("the tolerance is {} mm; it must be 0 to 10", settings.workpiece.tolerance_mm));
     MOTIONRACK_TRY(Conveyor own, Conveyor::make(settings.track));
     MOTIONRACK_TRY(LaserGate gate, LaserGate::make(settings.laser));
     return MarkingStation(settings, std::move(own), track, gate);

@@ -13,17 +13,15 @@ Result<SerialPositionSource> SerialPositionSource::make(const Conveyor& track, c
     if (!within(std::abs(s.bits_per_mm), 1e-6, 1e9))
         return fail(
             ErrorKind::refused,
-            fmt::format("a position sender with {} bits/mm: 0.000001 to 1e9 are possible, or negative", s.bits_per_mm));
+            fmt::format("the resolution is {} bits/mm; it must be 0.000001 to 1e9, or negative", s.bits_per_mm));
     if (!within(s.period_us, 1, 1e6) || !within(s.delay_us, 0, 1e6))
         return fail(
             ErrorKind::refused,
-            fmt::format(
-                "a position sender with a period of {} us and a delay of {} us: 1 and 0 to 1000000 us are possible",
-                s.period_us, s.delay_us));
+            fmt::format("the period is {} us and the delay {} us; they must be 1 to 1000000 us and 0 to 1000000 us",
+                        s.period_us, s.delay_us));
     if (s.two_axes && track.settings().rotary)
-        return fail(
-            ErrorKind::refused,
-            "a position sender with two axes on a rotary table: a table has one angle; use a belt, or one axis");
+        return fail(ErrorKind::refused,
+                    "a rotary table has one angle, but the sender is set to two axes; use a belt, or one axis");
     SerialPositionSource out;
     out.track_ = &track;
     out.settings_ = s;

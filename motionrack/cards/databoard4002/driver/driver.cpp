@@ -73,7 +73,7 @@ Result<std::int64_t> Driver::ask(std::uint8_t code, int bytes) {
 
 Result<void> Driver::in_range(const char* what, std::int64_t value, std::int64_t min, std::int64_t max) const {
     if (value >= min && value <= max) return {};
-    return fail(ErrorKind::refused, fmt::format("{} of card {} is {}, but it takes {} to {}. Nothing was sent.", what,
+    return fail(ErrorKind::refused, fmt::format("{} of card {} is {}, but must be {} to {}. Nothing was sent.", what,
                                                 settings_.select, value, min, max));
 }
 

@@ -97,7 +97,7 @@ TEST(Databoard4002Driver, RejectsValuesOutOfRangeAndSendsNothing) {
     EXPECT_FALSE(driver.to_counts(0.0 / 0.0 * 0));
     EXPECT_FALSE(driver.find_zero(0x20, 0, 14'000, whole_seconds(1)));
     EXPECT_TRUE(port.accesses.empty());
-    EXPECT_THAT(driver.set_number(-9'000'000).error().message, HasSubstr("-9000000, but it takes -8388608 to 8388607"));
+    EXPECT_THAT(driver.set_number(-9'000'000).error().message, HasSubstr("-9000000, but must be -8388608 to 8388607"));
     EXPECT_EQ(*driver.to_counts(-1.2345), -1'234);
 }
 

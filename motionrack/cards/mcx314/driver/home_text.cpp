@@ -173,7 +173,7 @@ std::pair<std::string, std::string> Home::input_failure(const std::string& how_f
             return {fmt::format("{} was not seen within {} after the switch", index, how_far),
                     "Check the encoder's Z wire and level, or home without it (type 1 or 2)"};
         case HomeFault::wrong_index:
-            return {fmt::format("{} was seen {} behind the switch, where it should be {} behind it", index,
+            return {fmt::format("{} was found {} behind the switch; it must be {} behind it", index,
                                 text(report_.switch_to_index().value_or(0)), text(settings_.index_after)),
                     "Look for a second index or noise on the encoder's Z wire, or whether the switch was moved"};
         default:

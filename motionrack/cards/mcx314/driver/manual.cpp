@@ -155,14 +155,15 @@ Result<void> Manual::step_jog(std::int64_t pulses, std::int64_t v) {
     MOTIONRACK_CHECK(Driver::check_channel(axis_, "Step"));
     if (state_ != ManualState::standing)
         return fail(ErrorKind::refused,
-                    fmt::format("Step of {}: it is {}. Nothing was moved; stop it first.", name(), state_name()));
+                    fmt::format("Step jog of {}: it is {}. Nothing was moved; stop it first.", name(), state_name()));
     if (pulses == 0)
         return fail(
             ErrorKind::refused,
             fmt::format("Step jog of {}: the distance is 0 pulses; it must not be 0. Nothing was moved.", name()));
     if (v < 0)
         return fail(ErrorKind::refused,
-                    fmt::format("Step of {}: the speed is {}, but the sign belongs to the pulses. Nothing was moved.",
+                    fmt::format("Step jog of {}: the speed is {}; it must be 0 or more. Nothing was moved. "
+                                "The sign of the pulses is the direction.",
                                 name(), v));
     MOTIONRACK_CHECK(check_ready("Step", pulses < 0 ? -v : v));
     why_.clear();

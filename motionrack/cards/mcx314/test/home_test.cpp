@@ -242,7 +242,7 @@ TEST(Homing, RejectsAnIndexAtAnUnexpectedPosition) {
             const Result<HomeReport> done = home(rig.driver, 0, settings);
             EXPECT_EQ(done.has_value(), off < 800) << off;
             if (done) continue;
-            EXPECT_THAT(done.error().message, HasSubstr("behind the switch, where it should be"));
+            EXPECT_THAT(done.error().message, HasSubstr("behind the switch; it must be"));
             EXPECT_THAT(done.error().message, HasSubstr("second index"));
             EXPECT_FALSE(rig.driver.moving(1));
         }

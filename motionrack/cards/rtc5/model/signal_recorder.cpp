@@ -84,7 +84,7 @@ Result<void> SignalRecorder::send(std::span<const std::uint32_t> signals) {
     Sender sender{static_cast<std::int64_t>(signals.size()), card_.tick};
     if (signals.size() > sender.signals.size())
         return fail(ErrorKind::refused,
-                    fmt::format("set_mcbsp_out: {} signals; at most {} are possible; nothing was changed",
+                    fmt::format("set_mcbsp_out: {} signals were given; the limit is {}; nothing was changed",
                                 signals.size(), sender.signals.size()));
     for (std::size_t i = 0; i < signals.size(); ++i) {
         if (signal_info(signals[i]) == nullptr)

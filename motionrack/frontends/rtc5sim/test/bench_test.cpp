@@ -65,7 +65,7 @@ TEST(Rtc5simCards, AMissingCardIsRejected) {
 TEST(Rtc5simCards, AWrongNumberOfCardsIsRefused) {
     const Session session("17");
     EXPECT_EQ(init_rtc5_dll(), UINT{RTC5_NO_CARD});
-    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("RTC5SIM_CARDS is \"17\", but the number of cards is 1 to 16"));
+    EXPECT_THAT(rtc5sim_last_error(), HasSubstr("RTC5SIM_CARDS is \"17\", but the number of cards must be 1 to 16"));
     ::setenv("RTC5SIM_CARDS", "2x", 1);
     EXPECT_EQ(rtc5sim_now_us(), -1);
     ::setenv("RTC5SIM_CARDS", "2", 1);
