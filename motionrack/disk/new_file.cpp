@@ -60,7 +60,7 @@ Result<NewFile> NewFile::create(const std::string& path, Incomplete part, Rights
     if (is_device(path)) return create_in_place(path);
     struct stat old {};
     const bool there = ::lstat(path.c_str(), &old) == 0;
-    if (there && S_ISLNK(old.st_mode)) return fail(ErrorKind::io, "it is a symbolic link, which is not written over");
+    if (there && S_ISLNK(old.st_mode)) return fail(ErrorKind::io, "it is a symbolic link, which is not overwritten");
     if (there && S_ISDIR(old.st_mode)) return reason(EISDIR);
     if (there && ::access(path.c_str(), W_OK) != 0) return reason(errno);
     NewFile out;

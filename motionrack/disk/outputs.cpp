@@ -28,17 +28,18 @@ Result<void> may_write_one(const std::string& output, const std::vector<std::str
     std::error_code none;
     if (fs::is_symlink(output, none))
         return refused(
-            fmt::format("{} is a symbolic link, which is not written over; give the name of a file. Nothing "
+            fmt::format("{} is a symbolic link, which is not overwritten; give the name of a file. Nothing "
                         "was done.",
                         output));
     for (const std::string& input : inputs) {
         if (is_left_out(input)) continue;
         if (same_file(input, output))
             return refused(fmt::format(
-                "{} is read, so nothing can be written there; choose another name. Nothing was done.", output));
+                "{} is an input, so it cannot be an output; choose another name. Nothing was done.", output));
         if (same_file(input, output + beside))
-            return refused(fmt::format("{} is made in {}{}, which is read; choose another name. Nothing was done.",
-                                       output, output, beside));
+            return refused(
+                fmt::format("{} is first written to {}{}, which is an input; choose another name. Nothing was done.",
+                            output, output, beside));
     }
     return {};
 }
@@ -60,7 +61,7 @@ Result<void> may_write(const std::vector<std::string>& inputs, const std::vector
             if (k == i || is_left_out(outputs[k])) continue;
             if (same_file(outputs[k], outputs[i]) || same_file(outputs[k], outputs[i] + beside))
                 return refused(fmt::format(
-                    "Two things would be written to {}; choose another name for one. Nothing was done.", outputs[i]));
+                    "Two outputs have the name {}; choose another name for one. Nothing was done.", outputs[i]));
         }
     }
     return {};

@@ -45,7 +45,8 @@ std::string job_file_reference() {
     const PartsSettings parts;
     std::string out =
         "# The marking job\nTOML, for `motionrack mark`. Every section but `[drawing]` may be left out; its files are "
-        "looked for beside it. Unknown keys, wrong types, values out of range and keys that do not go together are "
+        "searched for in its folder. Unknown keys, wrong types, values out of range and keys that do not go together "
+        "are "
         "errors; all are reported at once, with line and column. Where a key has two names, the first is for a belt, "
         "the second for a table.\n\n";
     for (const fields::SectionInfo& section : fields::sections) {

@@ -83,7 +83,9 @@ Result<json> set_clock(PanelContext& context, const json& fields) {
          {operate::ClockMode::real, operate::ClockMode::unthrottled, operate::ClockMode::paused})
         if (operate::name_of(mode) == name)
             return accepted(pacer->set(mode, number_of(fields, "factor", pacer->factor())));
-    return fail(ErrorKind::invalid_input, "The clock has no such mode.");
+    return fail(
+        ErrorKind::invalid_input,
+        fmt::format("Unknown clock mode '{}'; it must be real, unthrottled or paused. Nothing was changed.", name));
 }
 
 Result<json> advance_clock(PanelContext& context, const json& fields) {

@@ -190,13 +190,13 @@ const void* conveyor_defaults(bool rotary) {
 constexpr std::array<std::string_view, 2> conveyor_keys = {"belt", "table"};
 constexpr std::array<PartSection, 3> conveyor_section_rows = {{
     {"[belt.NAME], [table.NAME]",
-     "What moves the part under a scan head: a belt (mm) or a rotary table (degrees). In place of its velocity "
+     "The conveyor under a scan head: a belt (mm) or a rotary table (degrees). In place of its velocity "
      "`profile = [[0, 50], [0.5, 120]]`: seconds and velocities, linear between, constant before and after. "
      "`motionrack run` and `mr_part_set` change the velocity: fault `drive.speed`.",
      track_table, conveyor_defaults},
     {"[belt.NAME.sender]",
-     "With the section, even an empty one, a position sender reads the place and gives the card's serial input words. "
-     "In [table.NAME.sender] the same.",
+     "With the section, even an empty one, a position sender samples the position and gives the card's serial input "
+     "words. In [table.NAME.sender] the same.",
      sender_table, default_object<parts::SerialPositionSettings>},
     {"[belt.NAME.parts]",
      "With the section, even an empty one, parts pass a light barrier, which starts the card. In [table.NAME.parts] "

@@ -86,8 +86,9 @@ class Reader {
                 descend(node, {node.key});
         }
         if (vary.children.empty())
-            problems_.error(vary.key_location,
-                            "Nothing is varied; write such as \"axis.X.max_accel_mm_s2\" = [500, 1000] below [vary].");
+            problems_.error(
+                vary.key_location,
+                "Nothing is varied; write, for example, \"axis.X.max_accel_mm_s2\" = [500, 1000] below [vary].");
         if (file_.parameters.size() > max_parameters)
             problems_.error(file_.parameters[max_parameters].location,
                             fmt::format("{} parameters are varied; the limit is {}. Leave some out.",
@@ -207,7 +208,7 @@ class Reader {
         const NumberRange range{settings.from, settings.to, settings.integer};
         if (range.integer && (range.from != std::floor(range.from) || range.to != std::floor(range.to)))
             return refuse(node.value_location,
-                          fmt::format("{} is to be whole, so from and to must be, but they are {} and {}.",
+                          fmt::format("{} is an integer, but from and to are {} and {}; they must be whole numbers.",
                                       parameter.name, rack::number_text(range.from), rack::number_text(range.to)));
         if (const double numbers = std::fabs(range.to - range.from) + 1;
             range.integer && settings.steps && static_cast<double>(*settings.steps) > numbers)

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view vary_doc =
     "Varied parameters, one line each. A single value is a list of one.\n\n"
     "| name | values | meaning |\n|---|---|---|\n"
-    R"(| `"axis.X.max_limit_mm"`, any key of a [rack file](rack-file.md) | as the key takes them )"
+    R"(| `"axis.X.max_limit_mm"`, any key of a [rack file](rack-file.md) | as in the rack file )"
     R"(| put into the rack file, in place of its value; `axis.X.max_limit_mm` without quotes is the same; )"
     R"(names with dots in quotes: `wires."motion.xin1"` |)"
     "\n"

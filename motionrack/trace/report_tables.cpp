@@ -236,7 +236,7 @@ std::string notes_html(const ReportData& data) {
         items += "<li>" + shown(data.notes[i]) + "</li>\n";
     }
     items +=
-        "<li>Lines in the pictures are drawn from fewer points than were recorded; the least and greatest values "
+        "<li>Lines in the pictures are drawn from fewer points than were recorded; the minimum and maximum values "
         "stay. The tables hold the numbers as recorded.</li>\n";
     return section("notes", "Limits of this report", "<ul class=\"card\">\n" + items + "</ul>\n");
 }

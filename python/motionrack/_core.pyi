@@ -47,7 +47,7 @@ def template_text(name: str) -> str: ...
 def template_names() -> list[str]: ...
 
 class Ran:
-    """A program that was run; motionrack.Outcome is what people use."""
+    """Result of a program run; programs use motionrack.Outcome."""
     def error(self) -> Any: ...
     def data(self) -> dict[str, Any]: ...
     def samples(self) -> tuple[Any, ...]: ...
@@ -227,7 +227,7 @@ class Mcx314:
     def ContArc(self, axes: int, P: Sequence[int], C: Sequence[int], clockwise: bool, v: int = 0, timeout: float = 60.0) -> None:
         """An arc of the chain; see ContLine."""
     def ContEnd(self, timeout: float = 60.0) -> tuple[int, int]:
-        """Gives the last segment and waits for the end, timeout in s: (segments, V units at the last pulse as planned)."""
+        """Executes the last segment and waits for the end, timeout in s: (segments, V units at the last pulse as planned)."""
     def BP2D(self, axes: int, V: int, SV: int = 0, A: int = 0, DecPoint: int = 0) -> None:
         """Begins a bit pattern of two axes: V steps a second, times the multiple; A 0: constant speed."""
     def BP3D(self, axes: int, V: int, SV: int = 0, A: int = 0, DecPoint: int = 0) -> None:
@@ -281,7 +281,7 @@ class Mcx314:
     def moving(self, axes: int = 15) -> bool:
         """Whether one of the axes drives."""
     def report(self, axis: int) -> str:
-        """Where a channel stands and why, as a sentence."""
+        """State and position of a channel with the reason, as a sentence."""
     def error_text(self, axes: int = 15) -> str:
         """The reports of the axes that have an error or were stopped by an input; "" if none."""
     def axis_speeds(self) -> list[float]:
@@ -307,94 +307,94 @@ InvalidInput: an argument is missing, not known, or out of its range. Refused: t
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 mode: pulse output; 0 (two pulse trains), 1 (pulse and direction).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetMultiple(self, axis: int, data: int) -> str:
         """The multiple M: pulses a second = V x M. One of these three comes before the first drive. Source: 4.3 Initial.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: the multiple M = 8,000,000 / R; 1 to 500.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetRange(self, data: int) -> str:
         """R of all axes; R = 800,000 is M = 10. Source: 4.3 Initial.
 
 data: R of all axes: M = 8,000,000 / R; 16000 to 8000000.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetMaxSpeed(self, data: int) -> str:
         """The smallest multiple with which V reaches this speed, of all axes. Source: 4.3 Initial.
 
 data: maximum speed of V; 1 to 4000000 pulses/s.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetSV(self, axis: int, data: int) -> str:
         """Initial speed. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: speed; 1 to 8000 x M pulses/s.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetV(self, axis: int, data: int) -> str:
         """Drive speed; acts also while driving. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: speed; 1 to 8000 x M pulses/s.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetA(self, axis: int, data: int) -> str:
         """Acceleration. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: acceleration; 1 to 8000 x 125 M pulses/s2.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetD(self, axis: int, data: int) -> str:
-        """Deceleration, in force from then on. Source: 4.4 Basic motion.
+        """Sets the deceleration D and selects it instead of A. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: acceleration; 1 to 8000 x 125 M pulses/s2.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetAA(self, axis: int, data: int) -> str:
         """K, the acceleration's rate. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65535.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetAO(self, axis: int, data: int) -> str:
         """Pulses reserved for the end at SV. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: reserved for the end at SV; 0 to 65535 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def Pulse(self, axis: int, data: int) -> str:
         """Output pulses of a fixed drive. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: the sign is the direction; -268435455 to 268435455 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def AutoDec(self) -> str:
         """The chip finds the deceleration of all axes itself. Source: 4.4 Basic motion.
 
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def ManualDec(self, axis: int, DecPulse: int) -> str:
         """Sets the pulses after which fixed drives decelerate. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 DecPulse: of the drive, then it decelerates; 0 to 268435455 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def ManDec(self, axis: int, DecPulse: int) -> str:
         """As ManualDec; the source has both names. Source: 4.4 Basic motion.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 DecPulse: of the drive, then it decelerates; 0 to 268435455 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def TCurve_F(self, axis: int, m_SV: int, m_V: int, m_A: int, m_Pulse: int) -> str:
         """Fixed drive with T-curve. Source: 4.4 Basic motion.
@@ -404,7 +404,7 @@ m_SV: initial speed; 1 to 8000 x M pulses/s.
 m_V: drive speed; 1 to 8000 x M pulses/s.
 m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
 m_Pulse: the sign is the direction; -268435455 to 268435455 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def TCurve_C(self, axis: int, m_SV: int, m_V: int, m_A: int) -> str:
         """Continuous drive with T-curve in + direction, until it is stopped. Source: 4.4 Basic motion.
@@ -413,7 +413,7 @@ axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 m_SV: initial speed; 1 to 8000 x M pulses/s.
 m_V: drive speed; 1 to 8000 x M pulses/s.
 m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SCurve_F(self, axis: int, m_SV: int, m_V: int, m_A: int, m_K: int, m_Pulse: int) -> str:
         """Fixed drive with S-curve. Source: 4.4 Basic motion.
@@ -424,7 +424,7 @@ m_V: drive speed; 1 to 8000 x M pulses/s.
 m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
 m_K: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65535.
 m_Pulse: the sign is the direction; -268435455 to 268435455 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SCurve_C(self, axis: int, m_SV: int, m_V: int, m_A: int, m_K: int) -> str:
         """Continuous drive with S-curve in + direction, until it is stopped. Source: 4.4 Basic motion.
@@ -434,7 +434,7 @@ m_SV: initial speed; 1 to 8000 x M pulses/s.
 m_V: drive speed; 1 to 8000 x M pulses/s.
 m_A: acceleration; 1 to 8000 x 125 M pulses/s2.
 m_K: the acceleration's rate: the jerk is 62,500,000 / K x M pulses/s3; 1 to 65535.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line2D_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of two axes at constant speed. Source: 4.5.1 Lines.
@@ -445,7 +445,7 @@ PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line3D_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of three axes at constant speed. Source: 4.5.1 Lines.
@@ -456,7 +456,7 @@ PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the three axes; 7 (X Y Z), 11 (X Y U), 13 (X Z U), 14 (Y Z U).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line2D_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of two axes with T-curve. Source: 4.5.1 Lines.
@@ -470,7 +470,7 @@ PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line3D_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of three axes with T-curve. Source: 4.5.1 Lines.
@@ -484,7 +484,7 @@ PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the three axes; 7 (X Y Z), 11 (X Y U), 13 (X Z U), 14 (Y Z U).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line2D_S(self, SV: int, V: int, A: int, D: int, K: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of two axes with S-curve. Source: 4.5.1 Lines.
@@ -499,7 +499,7 @@ PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def Line3D_S(self, SV: int, V: int, A: int, D: int, K: int, PX: int, PY: int, PZ: int, PU: int, axis: int) -> str:
         """Line of three axes with S-curve. Source: 4.5.1 Lines.
@@ -514,7 +514,7 @@ PY: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 puls
 PZ: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 PU: finish point, from the start; all 0: that of SetFP; -8388608 to 8388607 pulses.
 axis: the three axes; 7 (X Y Z), 11 (X Y U), 13 (X Z U), 14 (Y Z U).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def CircleCW_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
         """Arc clockwise at constant speed; the first axis points right, the second up. Source: 4.5.2 Arcs.
@@ -529,7 +529,7 @@ CY: centre, from the start; all 0: finish and centre of SetFP and SetCP; -838860
 CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def CircleCCW_C(self, V: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
         """Arc counterclockwise at constant speed. Source: 4.5.2 Arcs.
@@ -544,7 +544,7 @@ CY: centre, from the start; all 0: finish and centre of SetFP and SetCP; -838860
 CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def CircleCW_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
         """Arc clockwise with T-curve. Source: 4.5.2 Arcs.
@@ -562,7 +562,7 @@ CY: centre, from the start; all 0: finish and centre of SetFP and SetCP; -838860
 CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def CircleCCW_T(self, SV: int, V: int, A: int, D: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, axis: int) -> str:
         """Arc counterclockwise with T-curve. Source: 4.5.2 Arcs.
@@ -580,114 +580,114 @@ CY: centre, from the start; all 0: finish and centre of SetFP and SetCP; -838860
 CZ: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 CU: centre, from the start; all 0: finish and centre of SetFP and SetCP; -8388608 to 8388607 pulses.
 axis: the two axes; 3 (X Y), 5 (X Z), 9 (X U), 6 (Y Z), 10 (Y U), 12 (Z U).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetCP(self, axis: int, data: int) -> str:
         """Centre of arcs whose own centre is 0. Source: 4.5.2 Arcs.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: centre of arcs, from the start; -8388608 to 8388607 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetC(self, axis: int, data: int) -> str:
         """As SetCP; the source has both names. Source: 4.5.2 Arcs.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: centre of arcs, from the start; -8388608 to 8388607 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetFP(self, axis: int, data: int) -> str:
         """Finish point of lines and arcs whose own is 0. Source: 4.5.2 Arcs.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: finish point of lines and arcs, from the start; -8388608 to 8388607 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetP(self, axis: int, data: int) -> str:
         """As SetFP; the source has both names. Source: 4.5.2 Arcs.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: finish point of lines and arcs, from the start; -8388608 to 8388607 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def HLMTP(self, n: int, axis: int) -> str:
         """Level at which the + limit switch acts. Source: 4.6 Signals.
 
 n: the input acts at; 0 (Low), 1 (High).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def HLMTM(self, n: int, axis: int) -> str:
         """Level at which the - limit switch acts. Source: 4.6 Signals.
 
 n: the input acts at; 0 (Low), 1 (High).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def HLMTSig(self, n: int, axis: int) -> str:
         """How limit switches stop. Source: 4.6 Signals.
 
 n: a limit switch stops; 0 (at once), 1 (decelerating).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SLMTP(self, n: int) -> str:
         """Software limit at COMP+. Source: 4.6 Signals.
 
 n: of all axes; 0 (off), 1 (on).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SLMTM(self, n: int) -> str:
         """Software limit at COMP-. Source: 4.6 Signals.
 
 n: of all axes; 0 (off), 1 (on).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SLMTSig(self, n: int) -> str:
         """Counter that the software limits are compared with. Source: 4.6 Signals.
 
 n: counter that COMP+ and COMP- are compared with, on all axes; 0 (the logical position LP), 1 (the real position EP).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def EncoderMode(self, n: int, axis: int) -> str:
         """Kind of the encoder inputs. Source: 4.6 Signals.
 
 n: encoder inputs; 0 (quadrature A/B), 1 (up and down pulses).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def EncoderCWCCW(self, n: int, axis: int) -> str:
         """Counted edges of A/B. Source: 4.6 Signals.
 
 n: counted edges of A/B; 0 (all), 1 (every second), 2 (every fourth).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def EnableALM(self, n: int) -> str:
         """Alarm inputs. Source: 4.6 Signals.
 
 n: of all axes; 0 (off), 1 (on).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def EnableInPos(self, n: int) -> str:
         """In-position inputs. Source: 4.6 Signals.
 
 n: of all axes; 0 (off), 1 (on).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def ALMSig(self, n: int, axis: int) -> str:
         """Level at which the alarm input acts. Source: 4.6 Signals.
 
 n: the input acts at; 0 (Low), 1 (High).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def InPosSig(self, n: int, axis: int) -> str:
         """Level at which the in-position input acts. Source: 4.6 Signals.
 
 n: the input acts at; 0 (Low), 1 (High).
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def HomeType1(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """Decelerates at the home switch. The axes are those of home_axes. Source: 4.7 Home.
@@ -696,7 +696,7 @@ WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z, or IN3's 
 SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def HomeType2(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """HomeType1, then back at SV and slowly to the switch again. Source: 4.7 Home.
@@ -705,7 +705,7 @@ WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z, or IN3's 
 SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def HomeType3(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """HomeType1, then on at SV to the encoder's index Z. Source: 4.7 Home.
@@ -714,7 +714,7 @@ WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z, or IN3's 
 SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def HomeType4(self, WR1Reg: int, SV: int, V: int, A: int) -> str:
         """HomeType3 slowly, then HomeType2. Source: 4.7 Home.
@@ -723,114 +723,114 @@ WR1Reg: WR1: the home switch enabled, at its level; IN2's level for Z, or IN3's 
 SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: acceleration; 1 to 8000 x 125 M pulses/s2.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def LPS(self, axis: int, data: int) -> str:
         """Sets the logical position. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: new logical position; -2147483648 to 2147483647 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def EPS(self, axis: int, data: int) -> str:
         """Sets the real (encoder) position. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: new real position; -2147483648 to 2147483647 counts.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def ReadLPS(self, axis: int) -> int:
         """The logical position of one axis. Source: 4.8 Positions.
 
 axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
-Gives: pulses.
+Returns: pulses.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def ReadEPS(self, axis: int) -> int:
         """The real position of one axis. Source: 4.8 Positions.
 
 axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
-Gives: counts.
+Returns: counts.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def ReadCV(self, axis: int) -> int:
         """Present speed of one axis; 0 at standstill. Source: 4.8 Positions.
 
 axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
-Gives: x M pulses/s.
+Returns: x M pulses/s.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def ReadCA(self, axis: int) -> int:
         """Present acceleration of one axis. Source: 4.8 Positions.
 
 axis: axis; 1 (X), 2 (Y), 4 (Z), 8 (U).
-Gives: x 125 M pulses/s2.
+Returns: x 125 M pulses/s2.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetCompP(self, axis: int, data: int) -> str:
         """COMP+, the + software limit. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: position of the software limit; -2147483648 to 2147483647 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def SetCompM(self, axis: int, data: int) -> str:
         """COMP-, the - software limit. Source: 4.8 Positions.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 data: position of the software limit; -2147483648 to 2147483647 pulses.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def RESET(self) -> str:
         """Resets the chip; all registers and the multiple have to be set again. Source: 4.8 Positions.
 
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def home_axes(self, axis: int) -> str:
         """The axes that HomeType1 to HomeType4 home, all at once; X at first. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def stop(self, axis: int) -> str:
         """Stops axes, decelerating, with everything that is interpolated with them. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def stop_now(self, axis: int) -> str:
         """Stops axes at once. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def wait(self, axis: int, milliseconds: int) -> str:
         """Waits until none of the axes drives. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 milliseconds: maximum time; 0 to 60000 ms.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def moving(self, axis: int) -> int:
         """Mask of the axes that drive. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: mask of axes.
+Returns: mask of axes.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def at_limit(self, axis: int) -> int:
         """Mask of the axes at a limit switch or beyond a software limit. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: mask of axes.
+Returns: mask of axes.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def report(self, axis: int) -> str:
         """Reports state, position and stop reason of axes. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def asymmetric(self, axis: int, on: int) -> str:
         """Selects D instead of A for decelerations. The source names it without listing it.
 
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 on: decelerations use D instead of A; 0 (off), 1 (on).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def set_output(self, axis: int, output: int, level: int) -> str:
         """Sets a general output: servo on, brakes. The source names it without listing it.
@@ -838,7 +838,7 @@ Errors: InvalidInput, Refused, Stopped, FileError."""
 axis: axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
 output: OUT0 to OUT7; 0 to 7.
 level: level; 0 (Low), 1 (High).
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def contour_begin(self, SV: int, V: int, A: int, D: int) -> str:
         """Opens a contour with its speeds. The source names it without listing it.
@@ -847,7 +847,7 @@ SV: initial speed; 1 to 8000 x M pulses/s.
 V: drive speed; 1 to 8000 x M pulses/s.
 A: 0: constant speed V; 0 to 8000 x 125 M pulses/s2.
 D: deceleration; 0: as the acceleration; 0 to 8000 x 125 M pulses/s2.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def contour_line(self, axis: int, PX: int, PY: int, PZ: int, PU: int, V: int) -> str:
         """Adds the next line; waits until the chip accepts it. The source names it without listing it.
@@ -858,7 +858,7 @@ PY: from the segment's start; -8388608 to 8388607 pulses.
 PZ: from the segment's start; -8388608 to 8388607 pulses.
 PU: from the segment's start; -8388608 to 8388607 pulses.
 V: velocity from here on; 0: unchanged; 0 to 8000 x M pulses/s.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def contour_arc(self, axis: int, PX: int, PY: int, PZ: int, PU: int, CX: int, CY: int, CZ: int, CU: int, clockwise: int, V: int) -> str:
         """Adds the next arc; waits until the chip accepts it. The source names it without listing it.
@@ -874,12 +874,12 @@ CZ: from the segment's start; -8388608 to 8388607 pulses.
 CU: from the segment's start; -8388608 to 8388607 pulses.
 clockwise: direction; 0 (counterclockwise), 1 (clockwise).
 V: velocity from here on; 0: unchanged; 0 to 8000 x M pulses/s.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def contour_end(self) -> int:
         """Executes the last segment and waits for the end. The source names it without listing it.
 
-Gives: segments.
+Returns: segments.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def pattern_begin(self, SV: int, V: int, A: int, DecPoint: int, axis: int) -> str:
         """Opens a bit pattern of two or three axes. The source names it without listing it.
@@ -889,7 +889,7 @@ V: drive speed; 1 to 8000 x M pulses/s.
 A: 0: constant speed V; 0 to 8000 x 125 M pulses/s2.
 DecPoint: then it decelerates; with A; 0 to 268435455 steps.
 axis: two or three axes; 1 (X), 2 (Y), 4 (Z), 8 (U) or a sum of these.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def pattern_steps(self, plus1: int, minus1: int, plus2: int, minus2: int, plus3: int, minus3: int) -> str:
         """Adds sixteen steps of each axis; three words fit before the start. The source names it without listing it.
@@ -900,17 +900,17 @@ plus2: 16 steps in + direction, the lowest bit first; 0 to 65535.
 minus2: 16 steps in - direction; a bit in both: the drive ends here; 0 to 65535.
 plus3: 16 steps in + direction, the lowest bit first; 0 to 65535.
 minus3: 16 steps in - direction; a bit in both: the drive ends here; 0 to 65535.
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
     def pattern_start(self) -> str:
         """Starts the pattern. The source names it without listing it.
 
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Stopped, FileError."""
     def pattern_end(self) -> str:
         """Waits for the end. The source names it without listing it.
 
-Gives: a sentence.
+Returns: a sentence.
 Errors: InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, FileError."""
 
 
@@ -932,7 +932,7 @@ class SlopeTable:
     def entries(self) -> list[tuple[int, int]]:
         """The 48 intervals: (rate, counts)."""
     def motion(self, distance: int, rate: int, scale: SpeedScale) -> dict[str, Any]:
-        """Computes a move of `distance` counts at `rate` with this table; nothing moves. Gives duration_s, top_speed (counts/s), legs."""
+        """Computes a move of `distance` counts at `rate` with this table; nothing moves. Returns duration_s, top_speed (counts/s), legs."""
 
 
 class Databoard4002:
@@ -998,13 +998,13 @@ class Databoard4002:
     def position_mm(self) -> float:
         """Position, mm by counts_per_mm."""
     def find_zero(self, marks: int, far: int, rate: int, timeout: float = 60.0, interrupt: bool = False) -> None:
-        """Slowly (rate) towards far counts until zero (02h), reference (04h) or both (06h) make the counter 0."""
+        """Moves slowly (rate) towards far counts until zero (02h), reference (04h) or both (06h) zero the counter."""
 
 
 class SpeedMeter:
     """Speed of an axis from readings of an Ioflex02, with the error that it cannot exceed."""
     def __init__(self, edge_error: float = 0.0) -> None:
-        """edge_error: how far an edge of the encoder may be from its place, counts."""
+        """edge_error: maximum position error of an edge of the encoder, counts."""
     def update(self, raw: int, age: int, ticks: int) -> tuple[float, float] | None:
         """A reading (counts, and 1.2 us ticks); (counts/s, error) or None before the second one."""
     def restart(self) -> None:
@@ -1061,7 +1061,7 @@ class Ioflex02:
     def read(self) -> tuple[int, list[dict[str, Any]]]:
         """All values of one instant: time since Init (ticks of 1.2 us, carried on), and of each axis position, raw (counts), age of the last count (1.2 us), down."""
     def set_mode(self, axis: int, reversed: bool = False, edges: int = 4, index_low: bool = False, filter: int = 0) -> None:
-        """How an axis (0 to 3) counts: edges 4, 2 or 1 a line; filter 0 to 15: a level counts after filter + 1 samples of 100 ns."""
+        """Sets how an axis (0 to 3) counts: edges 4, 2 or 1 a line; filter 0 to 15: a level counts after filter + 1 samples of 100 ns."""
     def wait_calibrated(self, axis: int, timeout: float = 60.0) -> None:
         """Waits until the axis is calibrated; Timeout after timeout s."""
     def clear_errors(self) -> None:
@@ -1096,7 +1096,7 @@ class GratingCard:
     def clear_errors(self) -> None:
         """Clears those counters."""
     def set_position(self, scale: int, count: int) -> None:
-        """From now on the scale with that address, 0 to 127, counts from there on, where the next reading's low 32 bits allow it."""
+        """Sets the 64-bit count of the scale with that address, 0 to 127, near count; the next reading gives its low 32 bits."""
 
 def bus_conflicts(world: RackHandle) -> int:
     """Conflicts on all lines of the grating bus so far."""
@@ -1275,7 +1275,7 @@ class Rtc5:
     def pause_list(self) -> None:
         """Holds the list."""
     def restart_list(self) -> None:
-        """Goes on after pause_list."""
+        """Continues the list after pause_list."""
     def stop_execution(self) -> None:
         """Ends the list at once."""
     def external_start(self) -> None:
@@ -1285,9 +1285,9 @@ class Rtc5:
     def enable_laser(self) -> None:
         """Enables the laser's signals."""
     def disable_laser(self) -> None:
-        """Keeps them in."""
+        """Disables the laser's signals."""
     def goto_xy(self, x: float, y: float) -> None:
-        """Jumps there, bits, while no list runs."""
+        """Jumps to X and Y, bits, while no list runs."""
     def set_jump_speed_ctrl(self, bits_ms: float) -> None:
         """Jump speed, 1.6 to 800,000 bits/ms."""
     def set_mark_speed_ctrl(self, bits_ms: float) -> None:
@@ -1322,7 +1322,7 @@ class Rtc5:
     def busy(self) -> bool:
         """Whether a list runs; takes no time."""
     def output(self) -> tuple[int, int, bool]:
-        """Where head A is (bits) and whether its laser is on; takes no time."""
+        """Position of head A (bits), and whether its laser is on; takes no time."""
     def wait(self, timeout: float = 60.0) -> None:
         """Waits for standstill of the card; Timeout after timeout s."""
     @property
@@ -1437,7 +1437,7 @@ class Rtc5:
     def set_qswitch_delay_list(self, Delay: int) -> None:
         """Accepted without effect: the laser is only on or off here. Delay 0 to 4294967295. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def init_rtc5_dll(self) -> int:
-        """Gives 0: nothing has to be loaded. Source: the maker's header of the RTC5 of 2013."""
+        """Returns 0: nothing has to be loaded. Source: the maker's header of the RTC5 of 2013."""
     def rtc5_count_cards(self) -> int:
         """Cards of type rtc5 in the rack. Source: the maker's header of the RTC5 of 2013."""
     def select_rtc(self, CardNo: int) -> int:
@@ -1454,13 +1454,13 @@ class Rtc5:
     def error_text(bits: int) -> list[str]:
         """A sentence for each of the bits 0 to 6 of get_last_error."""
     def load_program_file(self, Path: str | None = None) -> int:
-        """Resets the card to power-up, except McBSP location 0, which continues; the name is ignored. Gives 0. Source: the RTC5 manual 1.10 d (German), page 198."""
+        """Resets the card to power-up, except McBSP location 0, which continues; the name is ignored. Returns 0. Source: the RTC5 manual 1.10 d (German), page 198."""
     def load_correction_file(self, Name: str | None, No: int, Dim: int = 2) -> int:
-        """Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). Gives 0. InvalidInput where it is damaged (its checksum does not fit, K is 0 although one is known, the table cannot be inverted), FileError where it cannot be read; the table is then as before. A UserWarning where it is of a program before version 4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125."""
+        """Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). Returns 0. InvalidInput where it is damaged (its checksum does not fit, K is 0 although one is known, the table cannot be inverted), FileError where it cannot be read; the table is then as before. A UserWarning where it is of a program before version 4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125."""
     def table_note(self, TableNo: int) -> str:
         """Note on the file of table TableNo 1 to 4: its checksum is not known; "": no note."""
     def load_fly_2d_table(self, Name: str | None, No: int) -> int:
-        """Loads the section [Fly2DTableNo] of a text file: lines of counts Enc0 Enc1 dEnc0 dEnc1; None: no table. Gives 0. No 0 to 4294967295. InvalidInput with the line where it is wrong, FileError where it cannot be read; the table is then as before. Source: the RTC5 manual 1.9 e, page 185."""
+        """Loads the section [Fly2DTableNo] of a text file: lines of counts Enc0 Enc1 dEnc0 dEnc1; None: no table. Returns 0. No 0 to 4294967295. InvalidInput with the line where it is wrong, FileError where it cannot be read; the table is then as before. Source: the RTC5 manual 1.9 e, page 185."""
     def set_mcbsp_out_ptr(self, SignalPtr: Sequence[int]) -> None:
         """Sends these signals of get_value in turn, one word in 10 us; at most 8, none: sending ends. Refused: a signal that is not there. Source: the maker's header of the RTC5 of 2013."""
     def get_waveform(self, Channel: int, Number: int) -> npt.NDArray[np.int32]:

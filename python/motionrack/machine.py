@@ -90,7 +90,7 @@ class Machine:
 
     def _operated(self) -> _core.SteppedMachine:
         if self._core is None:
-            raise Refused("The machine was closed; nothing was done. Make another one.")
+            raise Refused("The machine was closed; nothing was done. Open another one.")
         return self._core
 
     def close(self) -> None:

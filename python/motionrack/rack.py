@@ -130,8 +130,8 @@ class Rack:
         """Runs until a digital wire has that level, and stops at that instant; Timeout after ``timeout`` s.
         InvalidInput.
 
-        A pin that a card drives on demand, as its pulse outputs, is driven while it is waited for,
-        and is part of the event trace then.
+        The wait also drives pins that a card drives only on demand, such as pulse outputs;
+        the event trace then contains them.
         """
         if level not in (0, 1):
             raise Refused(f"The level of {name} is {level}; it must be 0 or 1. Nothing was run.")

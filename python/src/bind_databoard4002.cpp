@@ -135,7 +135,7 @@ void bind_events(BoardClass& c) {
                 *self.world, [&] { return self.driver->find_zero(marks, far, rate, time, waiting(interrupt)); }, time);
         },
         py::arg("marks"), py::arg("far"), py::arg("rate"), py::arg("timeout") = 60.0, py::arg("interrupt") = false,
-        "Slowly (rate) towards far counts until zero (02h), reference (04h) or both (06h) make the counter 0.");
+        "Moves slowly (rate) towards far counts until zero (02h), reference (04h) or both (06h) zero the counter.");
 }
 
 db::SlopeTable table_of(const std::vector<std::pair<int, Wide>>& entries) {
@@ -223,7 +223,7 @@ void bind_slopes(py::module_& m) {
             },
             "The 48 intervals: (rate, counts).")
         .def("motion", &motion_of, py::arg("distance"), py::arg("rate"), py::arg("scale"),
-             "Computes a move of `distance` counts at `rate` with this table; nothing moves. Gives duration_s, "
+             "Computes a move of `distance` counts at `rate` with this table; nothing moves. Returns duration_s, "
              "top_speed (counts/s), legs.");
 }
 

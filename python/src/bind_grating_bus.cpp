@@ -104,9 +104,8 @@ void bind_card(py::module_& m) {
                 self.driver->set_position(scale, count);
             },
             py::arg("scale"), py::arg("count"),
-            "From now on the scale with that address, 0 to 127, counts from there on, where the next reading's low 32 "
-            "bits "
-            "allow it.");
+            "Sets the 64-bit count of the scale with that address, 0 to 127, near count; the next reading gives its "
+            "low 32 bits.");
 }
 
 void bind_bus(py::module_& m) {

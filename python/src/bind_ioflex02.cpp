@@ -138,8 +138,8 @@ void bind_layer(FlexClass& c) {
         },
         py::arg("axis"), py::arg("reversed") = false, py::arg("edges") = 4, py::arg("index_low") = false,
         py::arg("filter") = 0,
-        "How an axis (0 to 3) counts: edges 4, 2 or 1 a line; filter 0 to 15: a level counts after filter + 1 samples "
-        "of 100 ns.");
+        "Sets how an axis (0 to 3) counts: edges 4, 2 or 1 a line; filter 0 to 15: a level counts after filter + 1 "
+        "samples of 100 ns.");
     c.def(
         "wait_calibrated",
         [](Flex& self, int axis, double timeout) {
@@ -219,7 +219,7 @@ void bind_speed(py::module_& m) {
     py::class_<io::SpeedMeter>(m, "SpeedMeter",
                                "Speed of an axis from readings of an Ioflex02, with the error that it cannot exceed.")
         .def(py::init<double>(), py::arg("edge_error") = 0.0,
-             "edge_error: how far an edge of the encoder may be from its place, counts.")
+             "edge_error: maximum position error of an edge of the encoder, counts.")
         .def(
             "update",
             [](io::SpeedMeter& meter, std::int64_t raw, std::int64_t age, std::int64_t ticks) {

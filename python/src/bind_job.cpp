@@ -202,7 +202,7 @@ std::shared_ptr<Ran> run(const std::shared_ptr<RackHandle>& world, const Program
 }  // namespace
 
 void bind_job(py::module_& m) {
-    py::class_<Ran, std::shared_ptr<Ran>>(m, "Ran", "A program that was run; motionrack.Outcome is what people use.")
+    py::class_<Ran, std::shared_ptr<Ran>>(m, "Ran", "Result of a program run; programs use motionrack.Outcome.")
         .def("error",
              [](const Ran& ran) -> py::object {
                  if (ran.outcome.ended) return py::none();

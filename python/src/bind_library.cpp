@@ -93,7 +93,7 @@ std::string doc_of(const FunctionInfo& function) {
     return fmt::format(
         "{}) -> {}\n\n{} {}.\n\n{}{}Errors: {}.", head, number ? "int" : "str", function.meaning,
         function.own ? "The source names it without listing it" : fmt::format("Source: {}", function.group), said,
-        number ? fmt::format("Gives: {}.\n", function.returns) : std::string("Gives: a sentence.\n"),
+        number ? fmt::format("Returns: {}.\n", function.returns) : std::string("Returns: a sentence.\n"),
         function.waits ? "InvalidInput, Refused, Timeout or MachineFault where it does not end well, Stopped, "
                          "FileError"
                        : "InvalidInput, Refused, Stopped, FileError");

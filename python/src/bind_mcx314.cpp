@@ -178,7 +178,7 @@ void bind_mcx314_status(Mcx314Class& c) {
         [](Mcx314& self, int axis) {
             return run_exclusive(*self.world, [&] { return self.driver->report(channel(axis, "report")).text(); });
         },
-        py::arg("axis"), "Where a channel stands and why, as a sentence.");
+        py::arg("axis"), "State and position of a channel with the reason, as a sentence.");
     c.def("error_text", call<Driver>(&Driver::error_text), py::arg("axes") = mcx314::xyzu,
           "The reports of the axes that have an error or were stopped by an input; \"\" if none.");
     c.def("axis_speeds", call<Driver>(&Driver::axis_speeds),

@@ -88,7 +88,7 @@ void bind_chain(Mcx314Class& c) {
             return std::pair(out.segments, out.end_speed);
         },
         py::arg("timeout") = 60.0,
-        "Gives the last segment and waits for the end, timeout in s: (segments, V units at the last pulse as "
+        "Executes the last segment and waits for the end, timeout in s: (segments, V units at the last pulse as "
         "planned).");
     const auto pattern = [&](const char* name, Result<void> (Driver::*function)(const mcx314::BPDATA&, unsigned),
                              const char* doc) {

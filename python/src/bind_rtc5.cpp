@@ -114,7 +114,7 @@ void bind_plain(Rtc5Class& c) {
     plain(
         "pause_list", [](Engine& engine) { engine.pause_list(); }, "Holds the list.");
     plain(
-        "restart_list", [](Engine& engine) { engine.restart_list(); }, "Goes on after pause_list.");
+        "restart_list", [](Engine& engine) { engine.restart_list(); }, "Continues the list after pause_list.");
     plain(
         "stop_execution", [](Engine& engine) { engine.stop_execution(); }, "Ends the list at once.");
     plain(
@@ -124,7 +124,7 @@ void bind_plain(Rtc5Class& c) {
     plain(
         "enable_laser", [](Engine& engine) { engine.parts().laser.enable(); }, "Enables the laser's signals.");
     plain(
-        "disable_laser", [](Engine& engine) { engine.parts().laser.disable(); }, "Keeps them in.");
+        "disable_laser", [](Engine& engine) { engine.parts().laser.disable(); }, "Disables the laser's signals.");
 }
 
 void bind_settings(Rtc5Class& c) {
@@ -134,7 +134,7 @@ void bind_settings(Rtc5Class& c) {
             order(
                 self, [&](Engine& engine) { return engine.goto_xy(x, y); }, rtc5::Refusal::busy);
         },
-        py::arg("x"), py::arg("y"), "Jumps there, bits, while no list runs.");
+        py::arg("x"), py::arg("y"), "Jumps to X and Y, bits, while no list runs.");
     const auto speed = [&](const char* name, rtc5::Op op, void (rtc5::PathGenerator::*function)(double),
                            const char* doc) {
         c.def(
@@ -248,7 +248,7 @@ void bind_answers(Rtc5Class& c) {
                 return std::tuple(engine.output().a[0], engine.output().a[1], engine.state().laser.on != 0);
             });
         },
-        "Where head A is (bits) and whether its laser is on; takes no time.");
+        "Position of head A (bits), and whether its laser is on; takes no time.");
     c.def(
         "wait",
         [](Rtc5& self, double timeout) {

@@ -98,7 +98,7 @@ py::array_t<std::int32_t> get_waveform(Rtc5& self, int channel, std::int64_t cou
 void bind_cards(Rtc5Class& c) {
     c.def(
         "init_rtc5_dll", [](Rtc5&) { return 0; },
-        "Gives 0: nothing has to be loaded. Source: the maker's header of the RTC5 of 2013.");
+        "Returns 0: nothing has to be loaded. Source: the maker's header of the RTC5 of 2013.");
     c.def(
         "rtc5_count_cards",
         [](Rtc5& self) {
@@ -146,23 +146,20 @@ void bind_rtc5_files(Rtc5Class& c) {
             return 0;
         },
         py::arg("Path") = py::none(),
-        "Resets the card to power-up, except McBSP location 0, which continues; the name is ignored. Gives 0. "
+        "Resets the card to power-up, except McBSP location 0, which continues; the name is ignored. Returns 0. "
         "Source: the RTC5 manual 1.10 d (German), page 198.");
     c.def(
         "load_correction_file", &load_correction_file, py::arg("Name"), py::arg("No"), py::arg("Dim") = 2,
-        "Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). Gives "
-        "0. InvalidInput where it is damaged (its checksum does not fit, K is 0 although one is known, the table "
-        "cannot "
-        "be inverted), FileError where it cannot be read; the table is then as before. A UserWarning where it is of a "
+        "Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). "
+        "Returns 0. InvalidInput where it is damaged (its checksum does not fit, K is 0 although one is known, the "
+        "table cannot be inverted), FileError where it cannot be read; the table is then as before. A UserWarning where it is of a "
         "program before version 4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125.");
     c.def("table_note", &table_note, py::arg("TableNo"),
           "Note on the file of table TableNo 1 to 4: its checksum is not known; \"\": no note.");
-    c.def(
-        "load_fly_2d_table", &load_fly_2d_table, py::arg("Name"), py::arg("No"),
-        "Loads the section [Fly2DTableNo] of a text file: lines of counts Enc0 Enc1 dEnc0 dEnc1; None: no table. "
-        "Gives 0. No 0 to 4294967295. InvalidInput with the line where it is wrong, FileError where it cannot be read; "
-        "the "
-        "table is then as before. Source: the RTC5 manual 1.9 e, page 185.");
+    c.def("load_fly_2d_table", &load_fly_2d_table, py::arg("Name"), py::arg("No"),
+          "Loads the section [Fly2DTableNo] of a text file: lines of counts Enc0 Enc1 dEnc0 dEnc1; None: no table. "
+          "Returns 0. No 0 to 4294967295. InvalidInput with the line where it is wrong, FileError where it cannot be "
+          "read; the table is then as before. Source: the RTC5 manual 1.9 e, page 185.");
     c.def(
         "set_mcbsp_out_ptr",
         [](Rtc5& self, const std::vector<std::uint32_t>& signals) {

@@ -72,7 +72,7 @@ void RackHandle::close() {
 }
 
 rack::Rack& RackHandle::rack() {
-    if (!rack_) refuse("The rack was closed; nothing was done. Make another one.");
+    if (!rack_) refuse("The rack was closed; nothing was done. Open another one.");
     return *rack_;
 }
 
@@ -147,7 +147,7 @@ Result<void> RackHandle::advance(Duration time) {
                                 to_seconds(time)));
     if (time > latest - now())
         return fail(ErrorKind::refused,
-                    fmt::format("The rack's time is {:.0f} s and ends at {:.0f} s; nothing was run. Make another rack.",
+                    fmt::format("The rack's time is {:.0f} s and ends at {:.0f} s; nothing was run. Open another rack.",
                                 to_seconds(now()), to_seconds(latest)));
     return run_to(now() + time);
 }

@@ -49,7 +49,7 @@ function Slope({ card }: { card: CardInfo }): JSX.Element {
             data={picture}
             names={names}
             xName="counts"
-            label="Slope table: speed in Hz over the way in counts"
+            label="Slope table: speed in Hz over the distance in counts"
             height={240}
           />
           <Legend names={names} />

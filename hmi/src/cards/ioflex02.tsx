@@ -148,7 +148,7 @@ function Outputs({ card, answer }: { card: CardInfo; answer: CardAnswer | null }
         <Button
           key={output}
           why={why}
-          label={`Output ${output}, ${level(output) === 1 ? 'high' : 'low'}: turn it over`}
+          label={`Output ${output}, ${level(output) === 1 ? 'high' : 'low'}: invert it`}
           onClick={() => turn(output)}>
           {output} {level(output) === 1 ? '●' : '○'}
         </Button>

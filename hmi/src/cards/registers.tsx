@@ -141,7 +141,7 @@ export function Registers(): JSX.Element {
         class="inspector"
         note={
           card.live === null
-            ? 'Looked at without effects: no register is read through the bus, nothing is cleared.'
+            ? 'Read without side effects: not through the bus, so nothing is cleared.'
             : `A real card at ${card.live}: its service reads it through the port; registers that reading clears are left out.`
         }>
         <Inspector key={card.name} card={card} />

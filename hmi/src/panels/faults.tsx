@@ -105,7 +105,7 @@ function Wires(): JSX.Element {
       <ul class="wirelist">
         {shown.map((wire) => {
           const level = channel(wire.name).value;
-          const no = why || (!wire.drivable ? 'An output drives this wire; it can only be looked at.' : '');
+          const no = why || (!wire.drivable ? 'An output drives this wire; it can only be read.' : '');
           const held = driving.value[wire.name];
           return (
             <li key={wire.name} class={held !== undefined ? 'held' : ''}>

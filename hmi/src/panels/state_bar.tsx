@@ -95,7 +95,7 @@ function LinkAge(): JSX.Element {
   return (
     <div
       class={`fact ${text === 'live' ? 'calm' : 'attention'}`}
-      title={`Pictures left out because this browser was slow: ${state.lost.value}`}>
+      title={`Status messages skipped because this browser was slow: ${state.lost.value}`}>
       <span class="name">Data</span>
       <span class="value tabular">
         <Icon name={text === 'live' ? 'link' : 'lost'} size={15} />

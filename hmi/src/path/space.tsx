@@ -171,7 +171,7 @@ export function Space(): JSX.Element {
       class="flat space"
       role="img"
       tabIndex={0}
-      aria-label="Path in space: travel, planned and driven line. Arrow keys turn it, plus and minus go nearer and farther."
+      aria-label="Path in space: travel, planned and driven line. Arrow keys rotate it, plus and minus zoom."
       onKeyDown={key}
       onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
       onPointerMove={(event) =>

@@ -186,7 +186,7 @@ inline constexpr MachineInfo machines[] = {
     {"continuous interpolation", "the running segment and the next one; RESET leads from every state to idle",
      chain_states, chain_transitions},
     {"bit pattern", "the running word; RESET leads from every state to idle", pattern_states, pattern_transitions},
-    {"bit-pattern stack", "the stacked words, as in BPSC; RESET leads from every state to 0", stack_states,
+    {"bit-pattern stack", "number of stacked words (BPSC); RESET leads from every state to 0", stack_states,
      stack_transitions},
     {"single steps", "basic pulses on request; RESET leads from every state to free", step_states, step_transitions},
     {"drive by wire", "each of nEXPP and nEXPM; RESET leads from every state to off", wire_states, wire_transitions},

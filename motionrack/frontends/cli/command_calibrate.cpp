@@ -72,8 +72,8 @@ void add_calibrate(CLI::App& app, Action& chosen) {
         "scale", "scale from two readings of the encoder or McBSP source and the distance between them");
     s->add_option(
          "--readings", o->readings,
-         "of get_encoder or read_mcbsp, before and after; of a word of two axes the half of the one axis, with "
-         "its sign (X low, Y high 16 bits)")
+         "readings of get_encoder or read_mcbsp, before and after the movement; from a word of two axes take the "
+         "16 bits of one axis with its sign (X low, Y high)")
         ->expected(2)
         ->required();
     s->add_option("--distance", o->scale.distance_mm, "mm between them, with its sign")->required();

@@ -100,7 +100,7 @@ void add_decode(CLI::App& app, Action& chosen) {
         ->allow_extra_args(false);
     command->add_option("--format", options->format, "vcd, csv or raw (default: by the file's name and content)");
     command->add_option("--sample-rate", options->sample_rate,
-                        "samples a second, as 24M or 500k; for raw captures and CSV without times");
+                        "samples a second, such as 24M or 500k; for raw captures and CSV without times");
     command
         ->add_option("--sample-bytes", options->capture.sample_bytes,
                      "bytes a sample of a raw capture, the lowest first")

@@ -208,7 +208,7 @@ void add_frames_subscribe(CLI::App& frames, Action& chosen) {
     command->add_option("--count", options->count, "end after this number of frames");
     command->add_option("--duration", options->seconds, "end after this time, s");
     command->add_option("--interval", options->every,
-                        "seconds between two states (default: 0.2 on a terminal, 1 else)");
+                        "seconds between two status lines (default: 0.2 on a terminal, 1 else)");
     command->add_option("--csv", options->csv, "write every frame as a row");
     command->add_flag("--json", options->json, "print states and events as lines of JSON");
     command->add_flag("-q,--quiet", options->quiet, "print only errors, no states");

@@ -96,7 +96,8 @@ int home(const HomeOptions& options) {
 void add_home(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<HomeOptions>();
     CLI::App* command = app.add_subcommand("home", "Home the axes of a rack and report the switches found");
-    command->add_option("AXES", options->axes, "letters, as XY or X,Y (default: every axis that has a home switch)");
+    command->add_option("AXES", options->axes,
+                        "letters, such as XY or X,Y (default: every axis that has a home switch)");
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     command
         ->add_option("--method", options->method,

@@ -146,7 +146,9 @@ void add_mark(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<MarkOptions>();
     CLI::App* command = app.add_subcommand(
         "mark", "Mark a drawing on a moving part with the virtual RTC5 and report the marks and their deviation");
-    command->add_option("JOB", options->job, "job file (TOML), '-': standard input; its files are looked for beside it")
+    command
+        ->add_option("JOB", options->job,
+                     "job file (TOML), '-': standard input; its files are searched for in its folder")
         ->required();
     command
         ->add_option("--picture", options->pictures,

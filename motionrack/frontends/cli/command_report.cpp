@@ -51,7 +51,7 @@ int make_report(const ReportOptions& options) {
 void add_report(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ReportOptions>();
     CLI::App* command = app.add_subcommand(
-        "report", "Make the page of a run (report.html) from its recording, or from the samples of a CSV file");
+        "report", "Make the report (report.html) of a run from its recording, or from the samples of a CSV file");
     command->add_option("RECORDING", options->recording, "recording of run --record, or samples of run --csv")
         ->required();
     command->add_option("--report", options->files.report, "path of the page")->capture_default_str();

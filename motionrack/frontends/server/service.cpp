@@ -130,7 +130,8 @@ Admission PanelService::admit_api(const RequestHead& head, const RequestTarget& 
     }
     if (name == "forget") {
         if (post) return answer(forget(head));
-        return answer(with(http_error(405, "invalid_input", "Forgetting needs the method POST."), "Allow", "POST"));
+        return answer(
+            with(http_error(405, "invalid_input", "Revoking your own token needs the method POST."), "Allow", "POST"));
     }
     if (name == "stream")
         return answer(

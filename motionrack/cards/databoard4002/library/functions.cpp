@@ -157,9 +157,9 @@ const std::array rows = {
     LibraryRow{{"move_to", moves, "Moves to a position with the present rate, mode and slope.", move_to_data, counts,
                 true, true},
                move_to},
-    LibraryRow{
-        {"move_by", moves, "Moves by a way with the present rate, mode and slope.", move_by_data, counts, true, true},
-        move_by},
+    LibraryRow{{"move_by", moves, "Moves by a distance with the present rate, mode and slope.", move_by_data, counts,
+                true, true},
+               move_by},
     LibraryRow{{"find_zero", moves, "Moves slowly until a mark sets the counter to 0, and stops.", find_zero_data,
                 counts, true, true},
                find_zero},

@@ -136,7 +136,7 @@ constexpr std::array rows = {
     FunctionRow{{"SetSV", basic, "Initial speed.", speed}, set<&D::SetSV>},
     FunctionRow{{"SetV", basic, "Drive speed; acts also while driving.", speed}, set<&D::SetV>},
     FunctionRow{{"SetA", basic, "Acceleration.", ramp}, set<&D::SetA>},
-    FunctionRow{{"SetD", basic, "Deceleration, in force from then on.", ramp}, set_d},
+    FunctionRow{{"SetD", basic, "Sets the deceleration D and selects it instead of A.", ramp}, set_d},
     FunctionRow{{"SetAA", basic, "K, the acceleration's rate.", jerk}, set<&D::SetAA>},
     FunctionRow{{"SetAO", basic, "Pulses reserved for the end at SV.", offset}, set_ao},
     FunctionRow{{"Pulse", basic, "Output pulses of a fixed drive.", way}, set<&D::Pulse>},

@@ -18,10 +18,10 @@ inline constexpr FieldInfo em6_fields[] = {
     {"VRING", 0x0010, "LP and EP count in a ring: .., COMP+, 0, 1, .."},
     {"HMINT", 0x0020, "interrupt at the end of a home search"},
     {"SMODE", 0x0080, "S-curve prefers to reach V (without effect: it always does)"},
-    {"FE0", 0x0100, "filter of nLMTP, nLMTM, nIN0, nIN1; X's also of EMGN"},
+    {"FE0", 0x0100, "filter of nLMTP, nLMTM, nIN0, nIN1; for X also of EMGN"},
     {"FE1", 0x0200, "filter of nIN2"},
     {"FE2", 0x0400, "filter of nALARM, nINPOS"},
-    {"FE3", 0x0800, "filter of nEXPP, nEXPM; X's also of EXPLSN"},
+    {"FE3", 0x0800, "filter of nEXPP, nEXPM; for X also of EXPLSN"},
     {"FE4", 0x1000, "filter of nIN3"},
     {"FL", 0xE000, "delay of the filters: 2 us, 256 us, 512 us, 1.024, 2.048, 4.096, 8.192, 16.384 ms"},
 };
