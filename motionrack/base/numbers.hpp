@@ -1,11 +1,11 @@
-// Decimal numbers in text by users and files.
+// Parses decimal numbers in the text of users and files.
 #pragma once
 
 #include <string_view>
 
 namespace motionrack {
 
-/// The number of the complete text; NaN if it is not a number or empty.
+/// Returns the number that the complete text is; NaN if it is empty or not a number.
 double number_of(std::string_view text);
 
 }  // namespace motionrack

@@ -84,7 +84,7 @@ class LookAheadPlanner final : public TrajectoryPlanner {
         double cruise;    ///< highest velocity2 on the move
         double entry;     ///< velocity2 at the start from which the end of the window can be reached
         Gain gain;
-        double lag;  ///< velocity that deceleration could remove before a new one applies: accel late_seconds
+        double lag;  ///< velocity lost in the delay of a new velocity: accel * late_seconds
     };
 
     /// Data of the last move for the next junction.

@@ -18,7 +18,7 @@ class GcodeLines {
     /// The machine must outlive this.
     explicit GcodeLines(operate::Machine& machine) : machine_(machine) {}
 
-    /// The parser state: that of the machine, or of the check mode.
+    /// Returns the interpreter that reads lines: the machine's, or in check mode ($C) its own.
     const control::gcode::Interpreter& interpreter() const {
         return check_ ? *check_ : machine_.stream().interpreter();
     }

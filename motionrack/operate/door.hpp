@@ -18,7 +18,7 @@ class Door {
 
     /// Refused while it is open: "The program was not started: the door is open. ..."
     Result<void> check_closed(const char* what) const;
-    /// Returns the alarm if the door was opened since the last look, with the effect in this state. `held`: the feed of
+    /// Returns the alarm if the door was opened since the last call, with the effect in this state. `held`: the feed of
     /// a program is held, which a resume continues.
     std::optional<std::string> take_opening(MachineState state, bool held);
     /// Stores the present spindle and coolant states for resume().

@@ -9,11 +9,11 @@ namespace motionrack::operate {
 
 namespace {
 
-constexpr Duration live_piece = milliseconds(1);         // virtual time between two looks at the card
+constexpr Duration live_piece = milliseconds(1);         // virtual time between two polls of the card
 constexpr Duration max_live_lag = milliseconds(50);      // virtual time does not catch up beyond this
 constexpr Duration registers_every = milliseconds(500);  // period of reading the registers
 constexpr Duration max_stop_wait = milliseconds(100);    // limit for a function that waits for an axis to stop
-constexpr int min_stop_waits = 10;                       // minimum looks within it, for a busy computer
+constexpr int min_stop_waits = 10;                       // minimum polls within it, for a busy computer
 constexpr int max_live_looks = 100;
 
 constexpr const char* by_its_wires =

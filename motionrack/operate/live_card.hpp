@@ -1,14 +1,14 @@
 // A real card that replaces a virtual one of the rack during a service.
 //
 //   Service ──► library ──► LiveCard ──► live::LivePort ──► card      the card runs on the computer's time
-//                              │ waits: 1 ms of virtual time between two looks, so that commands, leases and the
+//                              │ waits: polls the card every 1 ms of virtual time, so that commands, leases and the
 //                              │ status continue
 //                              └ after each call and twice a second: all registers, for the card's page; while a
 //                                function waits, those that do not disturb it
 //
-// A stop is written at the next look; where a failure of any thread ends the program, at once: see LastStop. An access
-// that the computer refuses ends the service. Reads return 0 then, so that functions waiting for an axis end; their
-// result is replaced by the reason.
+// A stop is written at the next poll. If a failure of any thread ends the program, the stop is written at once: see
+// LastStop. An access that the computer refuses ends the service: reads then return 0, so that functions waiting for an
+// axis end, and the reason replaces their result.
 #pragma once
 
 #include <memory>
@@ -82,7 +82,7 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     const std::optional<Error>& lost() const { return lost_; }
     /// Reason why the result of an ended function may be wrong; nothing: it is valid.
     std::optional<Error> doubt() const;
-    /// Writes the quick stop of all axes, and looks up to 100 times, a millisecond apart, until they are at standstill.
+    /// Writes the quick stop of all axes, and polls up to 100 times, a millisecond apart, until they are at standstill.
     /// A port that has refused an access is first opened once more.
     LiveStop stop(FunctionLibrary& library);
 
@@ -107,7 +107,7 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     std::optional<live::LastStop> last_stop_;
     std::optional<Error> lost_;
     LiveRegisters registers_;
-    Instant polled_{};                ///< last look, on this clock
+    Instant polled_{};                ///< last poll, on this clock
     Instant passed_{};                ///< instant of this clock up to which virtual time has followed
     std::optional<Instant> stopped_;  ///< since when a function has waited with a stop in force
     int stop_waits_ = 0;              ///< waits since then

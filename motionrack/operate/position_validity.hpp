@@ -32,7 +32,7 @@ class PositionValidity {
     Result<void> take(control::Axis& axis, const Declared& declared);
     /// Makes the position of a homed axis valid from `since`.
     void begin_at_home(char letter, Instant since);
-    /// Returns alarms with source, text and axis for losses, count errors and following errors since the last look.
+    /// Returns alarms with source, text and axis for losses, count errors and following errors since the last call.
     /// Call regularly between motions.
     std::vector<Alarm> poll(Instant now, MachineState state);
     /// Invalidates axes that have lost their own position. Call at standstill. Returns their letters: "XY".

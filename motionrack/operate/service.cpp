@@ -11,7 +11,7 @@ namespace motionrack::operate {
 namespace {
 
 constexpr Duration look_at_stop_every = milliseconds(1);
-/// Limit of the looks after a stop; pulses end with the command.
+/// Limit of the polls after a stop; pulses end with the command.
 constexpr int max_looks = 100;
 
 }  // namespace

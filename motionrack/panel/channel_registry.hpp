@@ -49,7 +49,7 @@ class ChannelRegistry {
     const LiveChannel* find(std::string_view name) const;
     /// Errors: invalid_input with the unknown name, or for more than Panel::max_channels.
     Result<std::shared_ptr<ChannelSet>> set_of(const std::vector<std::string>& names);
-    /// Reads the sets in use, and removes the others.
+    /// Reads the channels of each set in use and shows the values to its clients; removes the other sets.
     void show(std::int64_t sequence, Instant at);
 
   private:

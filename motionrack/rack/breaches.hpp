@@ -83,7 +83,7 @@ class JumpWatch {
     JumpWatch(double start_hz, double accel_hz, Duration period);
     struct Jump {
         double hz = 0;       ///< 0: no step
-        bool first = false;  ///< the previous look found no step
+        bool first = false;  ///< the previous sample had no step
     };
     /// Takes the pulses sent up to now. Returns the velocity step in the middle of the two windows that end now, if too
     /// large.

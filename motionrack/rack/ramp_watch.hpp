@@ -57,8 +57,8 @@ class RampWatch final : public sim::Device {
         std::int64_t watches = 0;
         Instant since = never;  ///< earlier velocity steps are ignored
         std::array<std::array<std::int64_t, counts_kept>, control::axis_count> counts{};  ///< newest last
-        std::array<double, control::axis_count> rates{};                                  ///< pulses/s at the last look
-        std::array<std::int64_t, control::axis_count> rest_looks{};  ///< with a rate of 0, up to the last look
+        std::array<double, control::axis_count> rates{};             ///< pulses/s at the last sample
+        std::array<std::int64_t, control::axis_count> rest_looks{};  ///< samples with a rate of 0, up to the last one
         std::array<Instant, control::axis_count> rests_from{};       ///< the first of them
         std::array<double, control::axis_count> ended_hz{};          ///< highest rate possible before the first of them
         /// One tick after the last velocity step of each axis; 0: none.

@@ -37,13 +37,13 @@ class ValidityWatch {
         std::int64_t turned = 0;  ///< counts of the encoder of a servo
     };
     Mark mark(std::size_t axis) const { return {rack_.kernel().now(), lost_pulses(axis), turned(axis)}; }
-    /// Returns the way of a servo since `mark`, mm or degrees. It is 0 for other axes, which have pulses to lose.
+    /// Returns the travel of a servo since `mark`, mm or degrees. It is 0 for other axes, which have pulses to lose.
     double moved_since(std::size_t axis, const Mark& mark) const;
-    /// Takes the position of an axis as correct at `from`, after homing or setting it. The next look reports any loss
+    /// Takes the position of an axis as correct at `from`, after homing or setting it. The next poll() reports any loss
     /// since then.
     void begin(std::size_t axis, const Mark& from);
-    /// Returns the findings since the last look, each once until begin(). `standing`: nothing moves, so that counters
-    /// and rotors can be compared and axes queried.
+    /// Returns the findings since the last call, each once until begin(). `is_stationary`: nothing moves, so that
+    /// counters and rotors can be compared and axes queried.
     std::vector<ValidityFinding> poll(bool is_stationary);
     /// Returns false if an axis that positions by itself has lost its position; sets the position of other axes. Call
     /// at standstill.
@@ -69,7 +69,7 @@ class ValidityWatch {
     Rack& rack_;
     std::vector<AxisWatch> watched_;
     std::uint64_t seen_ = 0;              ///< conditions evaluated
-    std::vector<ValidityFinding> early_;  ///< findings for the next look
+    std::vector<ValidityFinding> early_;  ///< findings for the next poll()
 };
 
 }  // namespace motionrack::rack

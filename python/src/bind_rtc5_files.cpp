@@ -148,12 +148,13 @@ void bind_rtc5_files(Rtc5Class& c) {
         py::arg("Path") = py::none(),
         "Resets the card to power-up, except McBSP location 0, which continues; the name is ignored. Returns 0. "
         "Source: the RTC5 manual 1.10 d (German), page 198.");
-    c.def(
-        "load_correction_file", &load_correction_file, py::arg("Name"), py::arg("No"), py::arg("Dim") = 2,
-        "Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). "
-        "Returns 0. InvalidInput where it is damaged (its checksum does not fit, K is 0 although one is known, the "
-        "table cannot be inverted), FileError where it cannot be read; the table is then as before. A UserWarning where it is of a "
-        "program before version 4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125.");
+    c.def("load_correction_file", &load_correction_file, py::arg("Name"), py::arg("No"), py::arg("Dim") = 2,
+          "Loads a .ct5 file as table No 1 to 4, None: a 1:1 table; Dim 2 or 3 (3D parts of a file are not used). "
+          "Returns 0. InvalidInput where it is damaged (its checksum does not fit, K is 0 although one is known, the "
+          "table cannot be inverted), FileError where it cannot be read; the table is then as before. A UserWarning "
+          "where "
+          "it is of a "
+          "program before version 4.0, whose checksum is not known. Source: the RTC5 manual 1.9 e, pages 124 and 125.");
     c.def("table_note", &table_note, py::arg("TableNo"),
           "Note on the file of table TableNo 1 to 4: its checksum is not known; \"\": no note.");
     c.def("load_fly_2d_table", &load_fly_2d_table, py::arg("Name"), py::arg("No"),

@@ -9,7 +9,7 @@ namespace motionrack::databoard4002lib {
 namespace {
 
 constexpr std::uint8_t no_card_answers = 0xFF;
-constexpr Duration max_sleep = milliseconds(10);  // between two looks for a stop
+constexpr Duration max_sleep = milliseconds(10);  // between two checks for a stop
 
 databoard4002::DriverSettings stopper_settings(std::uint8_t number) {
     databoard4002::DriverSettings settings;

@@ -35,14 +35,14 @@ class PseudoTerminal {
     OpenFile take_master() { return std::move(master_); }
     /// Discards output that clients have not read; keeps their input.
     void forget_unread();
-    /// Client activity since the last look.
+    /// Client activity since the last call.
     struct ClientActivity {
         bool left = false;  ///< the last client closed it
         bool came = false;  ///< a client opened it as the only one, at or before that time
     };
     ClientActivity poll_client();
     int clients() const { return clients_; }
-    /// Descriptor that is readable when a look is needed.
+    /// Descriptor that becomes readable when a call of poll_client() is needed.
     int watch() const { return watch_.number(); }
 
   private:

@@ -22,9 +22,10 @@ class SerialPositionSource {
   public:
     /// `track` must outlive the source. Errors: refused for numbers not finite or out of range.
     static Result<SerialPositionSource> make(const Conveyor& track, const SerialPositionSettings& settings);
-    /// The latest complete word at ticks of 10 us: first, first + 1, ..; sampling began long before 0 s.
+    /// Writes the latest complete word at each tick of 10 us to `out`, from `first_tick` on. Sampling began long before
+    /// 0 s.
     void words(std::int64_t first_tick, std::span<std::uint32_t> out) const;
-    /// The word of a sample at t_s.
+    /// Returns the word of a sample taken at `t_s`.
     std::uint32_t word_at(double t_s) const;
     const SerialPositionSettings& settings() const { return settings_; }
 

@@ -35,7 +35,7 @@ class CommandLibrary final : public FunctionLibrary {
     /// are off. Errors: machine if no card answers, or it is not Ready.
     Result<void> connect();
     Result<CallAnswer> call(std::size_t function, std::span<const std::int64_t> values) override;
-    /// True while the rate at the output is not 0, or the card does not tell it.
+    /// True while the rate at the output is not 0, or the card does not report it.
     bool moving() override;
     /// Q.
     void stop_now() override;

@@ -9,7 +9,7 @@ namespace motionrack::databoard4002 {
 
 class EventRegister {
   public:
-    /// `state`: part of the card's state.
+    /// `state` is part of the card's state and must outlive this.
     EventRegister(EventState& state, Pins& pins) : state_(state), pins_(pins) {}
 
     /// The latched word if an event is pending, else the present one.

@@ -17,7 +17,7 @@ namespace motionrack::databoard4002 {
 
 class HostPorts {
   public:
-    /// `state`: part of the card's state, but for its latch and collector. `byte_time`: firmware time for an access.
+    /// `state` is part of the card's state and must outlive this. `byte_time`: firmware time for an access.
     HostPorts(HostPortsState& state, Duration byte_time, const ConditionReporter& conditions, PassSchedule& passes,
               const Pins& pins, EventRegister& events, CommandCollector& commands);
 

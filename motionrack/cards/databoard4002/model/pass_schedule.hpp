@@ -9,7 +9,7 @@ namespace motionrack::databoard4002 {
 
 class PassSchedule {
   public:
-    /// `next`: the next pass that can have an effect; part of the card's state.
+    /// `next`, the next pass that can have an effect, is part of the card's state and must outlive this.
     PassSchedule(Instant& next, std::int32_t period_ticks) : next_(next), period_(period_ticks * tick.count()) {}
 
     Instant first_from(Instant t) const { return Duration{(t.count() + period_ - 1) / period_ * period_}; }

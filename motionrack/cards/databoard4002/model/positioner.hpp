@@ -19,7 +19,7 @@ namespace motionrack::databoard4002 {
 
 class Positioner {
   public:
-    /// `state`: part of the card's state.
+    /// `state` is part of the card's state and must outlive this.
     Positioner(PositionerState& state, const ConditionReporter& conditions, PassSchedule& passes, const Pins& pins,
                PositionCounter& counter, EventRegister& events);
 

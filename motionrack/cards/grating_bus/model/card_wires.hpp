@@ -13,7 +13,8 @@ class CardWires {
   public:
     enum Pin { state_pin, done_pin };
 
-    /// Adds the wires "<name>.<pin>" to the kernel. `fresh`: STATUS.FRAME; part of the card's state.
+    /// Adds the wires "<name>.<pin>" to the kernel. `fresh` (STATUS.FRAME) is part of the card's state and must outlive
+    /// this.
     CardWires(sim::Kernel& kernel, sim::DeviceId card, const std::string& name, std::uint32_t& fresh);
 
     sim::WireId interrupt() const { return interrupt_; }

@@ -11,7 +11,7 @@ namespace motionrack::grating_bus {
 
 class ErrorCounters {
   public:
-    /// `state`: part of the card's state.
+    /// `state` is part of the card's state and must outlive this.
     ErrorCounters(ErrorCountersState& state, sim::Kernel& kernel, sim::DeviceId card)
         : state_(state), kernel_(kernel), card_(card) {}
 

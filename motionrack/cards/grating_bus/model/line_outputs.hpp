@@ -11,7 +11,7 @@ namespace motionrack::grating_bus {
 
 class LineOutputs {
   public:
-    /// `state`: part of the card's state; `settings` must outlive it.
+    /// `state` is part of the card's state; it and `settings` must outlive this.
     LineOutputs(LineOutputsState& state, const CardSettings& settings) : state_(state), settings_(settings) {}
 
     std::uint32_t clk() const { return state_.clk; }

@@ -16,7 +16,7 @@ namespace motionrack::mcx314 {
 /// R of the second axis over that of the first, minus one, for constant vector speed of two axes.
 inline constexpr double both_axes_extra = 0.41421356237309503;
 
-/// Conversion to doubles.
+/// Limits of rules:: as doubles.
 inline constexpr double max_units = static_cast<double>(rules::max_units),
                         speed_carry = static_cast<double>(rules::speed_carry);
 

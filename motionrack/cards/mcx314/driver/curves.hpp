@@ -25,9 +25,9 @@ struct CurveData {
     std::int64_t SV = 1;
     std::int64_t V = 1;
     std::int64_t A = 1;
-    std::int64_t D = 1;       ///< used where asymmetric
-    std::int64_t K = 65'535;  ///< used where s_curve
-    std::int64_t AO = 0;      ///< used with automatic deceleration
+    std::int64_t D = 1;       ///< deceleration; used if `asymmetric`
+    std::int64_t K = 65'535;  ///< jerk; used if `s_curve`
+    std::int64_t AO = 0;      ///< pulses reserved at SV; used with automatic deceleration
     bool s_curve = false;
     bool asymmetric = false;
     std::optional<std::int64_t> dec_point = {};  ///< manual deceleration; absent: automatic

@@ -15,7 +15,7 @@ namespace motionrack::rtc5 {
 
 class HeadTransforms {
   public:
-    /// `state`: part of the card's state.
+    /// `state` is part of the card's state and must outlive this.
     HeadTransforms(TransformsState& state, BlockBuffers& buffers) : state_(state), buffers_(buffers) {}
 
     // ---- commands

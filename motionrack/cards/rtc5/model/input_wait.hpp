@@ -10,7 +10,7 @@ namespace motionrack::rtc5 {
 
 class InputWait {
   public:
-    /// `activity`: the part of the card's state that waits.
+    /// `activity`: part of the card's state, with the wait to evaluate. All arguments must outlive this.
     InputWait(const Activity& activity, BeltEncoders& encoders, McBspReceiver& mcbsp, BlockBuffers& buffers)
         : activity_(activity), encoders_(encoders), mcbsp_(mcbsp), buffers_(buffers) {}
 

@@ -10,7 +10,7 @@ namespace motionrack::rtc5 {
 
 class ListExecution {
   public:
-    /// `lists`: part of the card's state.
+    /// `lists` is part of the card's state and must outlive this.
     ListExecution(Lists& lists, StatusFlags& flags, const Connections& connections)
         : lists_(lists), flags_(flags), connections_(connections) {}
 
