@@ -100,14 +100,14 @@ test('STOP is the first in the order of focus and is never disabled', async () =
   await tab.context.close();
 });
 
-test('new alarms are told at once, the state politely', async () => {
+test('new alarms are announced at once, the state politely', async () => {
   const tab = await openTab(all.browser, all.server);
   assert.equal(await tab.page.locator('.alarmlive').getAttribute('aria-live'), 'assertive');
   assert.equal(await tab.page.locator('.statebar .state').getAttribute('aria-live'), 'polite');
   await tab.context.close();
 });
 
-test('every lamp has a letter and a name, so that no lamp is told by its colour alone', async () => {
+test('every lamp has a letter and a name besides its colour', async () => {
   const tab = await openTab(all.browser, all.server);
   const lamps = await tab.page.evaluate(() =>
     [...document.querySelectorAll('.led')].map((one) => [one.textContent, one.getAttribute('aria-label')]),
@@ -140,7 +140,7 @@ for (const width of [600, 768, 1024, 1280, 1440, 1920])
     await tab.context.close();
   });
 
-test('who wants less motion gets none', async () => {
+test('the page has no animation if the user prefers reduced motion', async () => {
   const tab = await openTab(all.browser, all.server, { reduced: true });
   const moving = await tab.page.evaluate(
     () =>

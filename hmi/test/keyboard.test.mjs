@@ -50,7 +50,7 @@ test('Esc stops, also while a field is typed in', async () => {
   await rest(tab);
 });
 
-test('an address that is not well formed shows the page all the same, and Esc stops', async () => {
+test('a malformed address shows the page, and Esc stops', async () => {
   const tab = await openTab(all.browser, all.server, { hash: '#/cards/100%' });
   const before = named(tab, 'stop').length;
   await tab.page.keyboard.press('Escape');
@@ -167,7 +167,7 @@ test('? shows the table of keys, made from the same declaration, and a link to t
   await rest(tab);
 });
 
-test('no jog keys and no letters act while a field is typed in', async () => {
+test('jog keys and letters do nothing while a field is typed in', async () => {
   const tab = await fresh();
   await arm(tab);
   await tab.page.getByLabel('Line of G-code').focus();
@@ -198,7 +198,7 @@ test('without control a key reports the reason', async () => {
   await tab.context.close();
 });
 
-test('Esc closes a dialog and stops all the same', async () => {
+test('Esc closes a dialog and stops as well', async () => {
   const tab = await fresh();
   await tab.page.keyboard.press('?');
   await tab.page.getByRole('dialog', { name: 'Help' }).waitFor();

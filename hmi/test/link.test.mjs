@@ -107,7 +107,7 @@ test('a reload keeps the job running and shows it', async () => {
   await done(tab);
 });
 
-test('the program is typed, checked and run; the line that is driven is marked', async () => {
+test('the program is typed, checked and run; the current line is marked', async () => {
   const tab = await running();
   await tab.page.getByRole('button', { name: 'Edit' }).click();
   await tab.page.locator('.listing .current').waitFor();
@@ -165,7 +165,7 @@ test('no request leaves the machine, and the content policy is kept', async () =
   await tab.context.close();
 });
 
-test('three is loaded only when the path is looked at in space', async () => {
+test('three is loaded only when the path is shown in 3D', async () => {
   const tab = await openTab(all.browser, all.server);
   assert.equal(tab.requests.filter((url) => /space-/.test(url)).length, 0);
   await tab.page.getByRole('button', { name: '3D' }).click();

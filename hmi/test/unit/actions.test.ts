@@ -18,19 +18,19 @@ const STORED = { stored: { 'motionrack.program': 'G0 X1\nM2', 'motionrack.progra
 const commands = (program: Program): unknown[] => program.heard.map((one) => one.command).filter(Boolean);
 
 describe('run', () => {
-  test('begins the text that is in the panel', async () => {
+  test('starts the program that is in the panel', async () => {
     const { actions, program } = await opened(STORED);
     actions.perform(actions.actions.run);
     expect(program.asked('start_program')).toEqual([{ command: 'start_program', name: 'part.ngc', text: 'G0 X1\nM2' }]);
   });
 
-  test('resumes a program that is held', async () => {
+  test('resumes a program after a feed hold', async () => {
     const { actions, program } = await opened({ ...STORED, machine: { state: 'hold' } });
     actions.perform(actions.actions.run);
     expect(commands(program)).toEqual(['resume']);
   });
 
-  test('without a program requests one', async () => {
+  test('asks for a program if none is open', async () => {
     const { actions, notices, program } = await opened();
     actions.perform(actions.actions.run);
     expect(commands(program)).toEqual([]);
@@ -38,8 +38,8 @@ describe('run', () => {
   });
 });
 
-describe('a single block', () => {
-  test('is chosen first, then the program is run', async () => {
+describe('single block', () => {
+  test('is enabled before the program is started', async () => {
     const { actions, program } = await opened(STORED);
     program.answers.set_single_block = {};
     actions.perform(actions.actions.step);
@@ -47,7 +47,7 @@ describe('a single block', () => {
     expect(commands(program)).toEqual(['set_single_block', 'start_program']);
   });
 
-  test('that is refused runs nothing', async () => {
+  test('starts nothing if it is refused', async () => {
     const { actions, program } = await opened(STORED);
     program.answers.set_single_block = 'Not while it homes.';
     actions.perform(actions.actions.step);
@@ -56,8 +56,8 @@ describe('a single block', () => {
   });
 });
 
-describe('the place of an axis', () => {
-  test('is declared in machine coordinates', async () => {
+describe('the position of an axis', () => {
+  test('is set in machine coordinates', async () => {
     const { actions, program } = await opened();
     actions.chosenAxis.value = 'Y';
     actions.placeText.value = '12,5';
@@ -72,7 +72,7 @@ describe('the place of an axis', () => {
     expect(program.asked('touch_off')).toEqual([{ command: 'touch_off', axis: 'X', value: -3 }]);
   });
 
-  test.each(['declare', 'touchOff'] as const)('that is no number is not sent (%s)', async (name) => {
+  test.each(['declare', 'touchOff'] as const)('is not sent if it is not a number (%s)', async (name) => {
     const { actions, notices, program } = await opened();
     actions.placeText.value = 'here';
     actions.perform(actions.actions[name]);
@@ -80,7 +80,7 @@ describe('the place of an axis', () => {
     expect(await notices()).toEqual(['"here" is not a position. Nothing was changed.']);
   });
 
-  test('is that of the first axis where the machine does not have the chosen one', async () => {
+  test('is that of the first axis if the machine does not have the chosen one', async () => {
     const { actions } = await opened({ machine: { axes: [axis('U'), axis('V')] } });
     expect(actions.axisLetter()).toBe('U');
   });
@@ -91,19 +91,19 @@ describe('switches', () => {
     ['disabled', true],
     ['standstill', false],
     ['error_stop', false],
-  ])('the drives of a machine that is %s are enabled: %s', async (state, on) => {
+  ])('enable the drives of a machine in state %s: %s', async (state, on) => {
     const { actions, program } = await opened({ machine: { state } });
     actions.perform(actions.actions.enable);
     expect(program.asked('enable')).toEqual([{ command: 'enable', on }]);
   });
 
-  test.each([true, false])('the emergency stop that is pressed: %s, is turned over', async (pressed) => {
+  test.each([true, false])('toggle the emergency stop (pressed: %s)', async (pressed) => {
     const { actions, program } = await opened({ machine: { estop: { wired: true, pressed } } });
     actions.perform(actions.actions.estop);
     expect(program.asked('set_estop')).toEqual([{ command: 'set_estop', pressed: !pressed }]);
   });
 
-  test('an emergency stop that is not wired cannot be pressed', async () => {
+  test('do not press an emergency stop that is not wired', async () => {
     const { actions, notices, program } = await opened({ machine: { estop: { wired: false, pressed: false } } });
     actions.perform(actions.actions.estop);
     expect(commands(program)).toEqual([]);
@@ -111,10 +111,10 @@ describe('switches', () => {
   });
 });
 
-describe('who may', () => {
+describe('permissions', () => {
   const names = ['resume', 'reset', 'enable', 'home', 'touchOff', 'declare', 'run', 'step'] as const;
 
-  test('a tab without control moves nothing and reports the reason', async () => {
+  test('refuse every motion from a tab without control and report the reason', async () => {
     const { actions, notices, program } = await opened({ ...STORED, machine: { control: { holder: 'bert' } } });
     for (const name of names) actions.perform(actions.actions[name]);
     actions.setFeed(0.5);
@@ -122,7 +122,7 @@ describe('who may', () => {
     expect((await notices()).at(-1)).toBe('Feed override: bert holds control.');
   });
 
-  test('hold needs no control, and STOP not even a role', async () => {
+  test('allow a feed hold without control, and STOP without a role', async () => {
     const { actions, program } = await opened({ role: 'operate', machine: { control: { holder: 'bert' } } });
     actions.perform(actions.actions.hold);
     expect(commands(program)).toEqual(['hold']);
@@ -132,7 +132,7 @@ describe('who may', () => {
     expect(commands(observing.program)).toEqual(['stop']);
   });
 
-  test('an alarm is acknowledged by its number', async () => {
+  test('allow an alarm to be acknowledged by its number', async () => {
     const { actions, program } = await opened({ machine: { control: { holder: 'bert' } } });
     actions.perform(actions.acknowledge(7));
     expect(program.asked('acknowledge_alarm')).toEqual([{ command: 'acknowledge_alarm', alarm: 7 }]);

@@ -8,28 +8,28 @@ const commands = async (): Promise<typeof import('../../src/link/commands')> => 
 const texts = async (): Promise<string[]> => (await commands()).notices.value.map((one) => one.text);
 
 describe('a command', () => {
-  test('is sent with its fields, and is true when it was taken', async () => {
+  test('is sent with its fields, and returns true when it was accepted', async () => {
     const { program } = await connected();
     program.answers.home = { done: true };
     expect(await (await commands()).command('home', { axes: 'X' })).toBe(true);
     expect(program.asked('home')).toEqual([{ command: 'home', axes: 'X' }]);
   });
 
-  test('cannot be turned into another one by its fields', async () => {
+  test('is not changed into another one by its fields', async () => {
     const { program } = await connected();
     program.answers.home = {};
     await (await commands()).command('home', { command: 'stop' });
     expect(program.heard.at(-1)?.command).toBe('home');
   });
 
-  test('that is refused is false, and its sentence is on the screen', async () => {
+  test('returns false if it is refused, and shows the reason', async () => {
     const { program } = await connected();
     program.answers.home = 'X has no home switch.';
     expect(await (await commands()).command('home')).toBe(false);
     expect(await texts()).toEqual(['X has no home switch.']);
   });
 
-  test('with an answer gives it; null: it was refused', async () => {
+  test('returns its answer, or null if it was refused', async () => {
     const { program } = await connected();
     program.answers.invite = { code: 'ABCD' };
     program.answers.mark = 'no';
@@ -39,7 +39,7 @@ describe('a command', () => {
 });
 
 describe('a sentence', () => {
-  test('names line and column where the program did', async () => {
+  test('names line and column if the program did', async () => {
     openBrowser();
     const { Refusal } = await import('../../src/link/contract');
     const { sentence } = await commands();
@@ -52,7 +52,7 @@ describe('a sentence', () => {
     expect(said({})).toBe('G99 is unknown.');
   });
 
-  test('is the text of whatever else went wrong', async () => {
+  test('is the text of any other error', async () => {
     openBrowser();
     const { sentence } = await commands();
     expect(sentence(new Error('broken'))).toBe('broken');
@@ -81,14 +81,14 @@ describe('notices', () => {
     expect(await texts()).toEqual(['2', '3', '4', '5']);
   });
 
-  test('of the same text are one', async () => {
+  test('appear once for the same text', async () => {
     openBrowser();
     const { notice } = await commands();
     for (const text of ['a', 'b', 'a']) notice('refused', text);
     expect(await texts()).toEqual(['b', 'a']);
   });
 
-  test('are closed by hand', async () => {
+  test('can be closed by hand', async () => {
     openBrowser();
     const { dismiss, notice, notices } = await commands();
     notice('refused', 'a');
@@ -115,7 +115,7 @@ describe('STOP', () => {
     expect(browser.posts.map((one) => one.authorization)).toEqual(['Bearer T1']);
   });
 
-  test('is sent by HTTP without a stream, and is silent on success', async () => {
+  test('is sent by HTTP without a stream, and shows no notice on success', async () => {
     const browser = openBrowser();
     (await commands()).stop();
     await settled();
@@ -126,7 +126,7 @@ describe('STOP', () => {
   test.each([
     ['the program did not take it', { ok: false, status: 500, body: {} }],
     ['there is no connection', new Error('offline')],
-  ])('says to use the real emergency stop when %s', async (_, http) => {
+  ])('points to the real emergency stop when %s', async (_, http) => {
     const browser = openBrowser();
     browser.http = http;
     (await commands()).stop();
@@ -135,7 +135,7 @@ describe('STOP', () => {
   });
 });
 
-describe('what is not allowed', () => {
+describe('the reason of a refusal', () => {
   test('reports a missing connection first', async () => {
     openBrowser();
     expect((await commands()).whyNot('observe')).toBe('The page is not connected to the program.');
@@ -146,13 +146,13 @@ describe('what is not allowed', () => {
     ['observe', [true, false, false]],
     ['operate', [true, true, false]],
     ['maintain', [true, true, true]],
-  ] as [Role, boolean[]][])('the role %s has what is below it, too', async (role, expected) => {
+  ] as [Role, boolean[]][])('includes the lower roles in the role %s', async (role, expected) => {
     await connected({ role });
     const { hasRole } = await commands();
     expect((['observe', 'operate', 'maintain'] as const).map(hasRole)).toEqual(expected);
   });
 
-  test('names the role that is needed, and the one that is there', async () => {
+  test('names the required role and the present one', async () => {
     await connected({ role: 'observe' });
     expect((await commands()).whyNot('operate')).toMatch(/needs the role operate; you have the role observe\./);
   });
@@ -171,13 +171,13 @@ describe('what is not allowed', () => {
     expect(mayOperate()).toBe('Take control first.');
   });
 
-  test('is nothing for the tab that holds control', async () => {
+  test('is empty for the tab that holds control', async () => {
     await connected();
     const { mayMaintain, mayOperate } = await commands();
     expect([mayOperate(), mayMaintain()]).toEqual(['', '']);
   });
 
-  test('names the card that is in service, while one is', async () => {
+  test('names the card in service', async () => {
     const { program } = await connected();
     const { whyInService } = await commands();
     expect(whyInService()).toBe('');

@@ -37,16 +37,16 @@ describe('the grid', () => {
   ])('has lines %d apart at min, at %d', (min, step) => expect(niceStep(min)).toBeCloseTo(step, 12));
 });
 
-describe('the flat sight', () => {
-  test('is all of the travel', () => {
+describe('the flat view', () => {
+  test('covers the whole travel', () => {
     expect(travelBox({ min: -10, max: 50 }, { min: 0, max: 20 })).toEqual([-10, 50, 0, 20]);
   });
 
-  test('takes an axis that the machine does not have for one from 0 to 1', () => {
+  test('uses 0 to 1 for an axis that the machine does not have', () => {
     expect(travelBox({ min: -10, max: 50 }, undefined)).toEqual([-10, 50, 0, 1]);
   });
 
-  test('around points has a twentieth of room, one unit at min', () => {
+  test('has a margin of a twentieth around points, at least one unit', () => {
     const points = [
       [0, 5, 0],
       [60, 5, 40],
@@ -56,9 +56,9 @@ describe('the flat sight', () => {
     expect(boxAround([[3], [3]], 0, 0)).toEqual([2, 4, 2, 4]);
   });
 
-  test('around fewer than two points there is none', () => expect(boxAround([[1, 2]], 0, 1)).toBeNull());
+  test('does not exist around fewer than two points', () => expect(boxAround([[1, 2]], 0, 1)).toBeNull());
 
-  test('lies in the middle, as large as fits, not distorted', () => {
+  test('is centred, as large as fits, and not distorted', () => {
     const [width, height] = [400, 300];
     const { scale, left, top } = sightOf([10, 110, -20, 30], width, height);
     expect(scale).toBeCloseTo((width - 2 * MARGIN) / 100, 12);
@@ -66,11 +66,11 @@ describe('the flat sight', () => {
     expect(top - 5 * scale).toBeCloseTo(height / 2, 9);
   });
 
-  test('of a tall box is bound by the height', () => {
+  test('is limited by the height of a tall box', () => {
     expect(sightOf([0, 1, 0, 100], 400, 300).scale).toBeCloseTo((300 - 2 * MARGIN) / 100, 12);
   });
 
-  test('of a single place is finite', () => expect(Number.isFinite(sightOf([5, 5, 5, 5], 400, 300).left)).toBe(true));
+  test('is finite for a single point', () => expect(Number.isFinite(sightOf([5, 5, 5, 5], 400, 300).left)).toBe(true));
 });
 
 describe('the planes', () => {
@@ -79,19 +79,19 @@ describe('the planes', () => {
     expect(planesOf('XZ', 'XZ')).toEqual({ options: ['XZ'], shown: 'XZ' });
   });
 
-  test('show another one where the wanted one is not there', () => {
+  test('show another one if the chosen one does not exist', () => {
     expect(planesOf('YZA', 'XY')).toEqual({ options: ['YZ', '3D'], shown: 'YZ' });
   });
 
-  test('are the first two axes where the machine has no two of X, Y and Z', () => {
+  test('are the first two axes if the machine has no two of X, Y and Z', () => {
     expect(planesOf('AB', 'XY')).toEqual({ options: ['AB'], shown: 'AB' });
     expect(planesOf('', 'XY').shown).toBe('');
   });
 
-  test('keep space where it was wanted', () => expect(planesOf('XYZ', '3D').shown).toBe('3D'));
+  test('keep the 3D view if it was chosen', () => expect(planesOf('XYZ', '3D').shown).toBe('3D'));
 });
 
-describe('the eye', () => {
+describe('the camera', () => {
   const eye = { turn: 0.5, tilt: 0, far: 100 };
 
   test('rotates, tilts and zooms by fixed steps', () => {
@@ -99,7 +99,7 @@ describe('the eye', () => {
     expect(turned(eye, { far: 0.5 }).far).toBe(50);
   });
 
-  test('does not go over the poles', () => {
+  test('stops at the poles', () => {
     expect(turned(eye, { tilt: 9 }).tilt).toBe(1.5);
     expect(turned(eye, { tilt: -9 }).tilt).toBe(-1.5);
   });
@@ -109,7 +109,7 @@ describe('the eye', () => {
     expect(turned(eye, { far: 1e6 }).far).toBe(1e4);
   });
 
-  test('comes back by the opposite arrow', () => {
+  test('returns by the opposite arrow', () => {
     const there = turned(eye, KEY_TURNS.ArrowLeft ?? {});
     expect(there.turn).not.toBe(eye.turn);
     expect(turned(there, KEY_TURNS.ArrowRight ?? {}).turn).toBeCloseTo(eye.turn, 12);
@@ -121,7 +121,7 @@ describe('the eye', () => {
   });
 });
 
-describe('a work piece', () => {
+describe('a workpiece', () => {
   const piece: PieceAnswer = {
     scanner: 'head',
     marks: [],
@@ -142,11 +142,11 @@ describe('a work piece', () => {
     ],
   };
 
-  test('without marks shows the field', () => expect(sight(piece)).toEqual([-54, -44, 108, 88]));
+  test('shows the field if it has no marks', () => expect(sight(piece)).toEqual([-54, -44, 108, 88]));
 
-  test('with marks shows them, upside up', () => expect(sight(marked)).toEqual([-1, -6, 12, 7]));
+  test('shows its marks with Y upwards', () => expect(sight(marked)).toEqual([-1, -6, 12, 7]));
 
-  test('has the stroke that is being marked, too', () => {
+  test('includes the stroke that is being marked', () => {
     expect(strokesOf(piece)).toEqual([]);
     expect(
       strokesOf({

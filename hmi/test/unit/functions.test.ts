@@ -50,7 +50,7 @@ const functions = [
 const found = (search: string): [string, string[]][] =>
   groupsOf(functions, search).map((group) => [group.name, group.functions.map((one) => one.name)]);
 
-test('functions are in the groups of their declaration', () => {
+test('functions are grouped as they are declared', () => {
   expect(found('')).toEqual([
     ['Basic', ['SetV', 'SetA']],
     ['Positions', ['RESET']],
@@ -64,7 +64,7 @@ test('a search takes names, groups and words, all of them at once, in any case',
   expect(found('speed chip')).toEqual([]);
 });
 
-test('a form begins with what is declared, and sends whole numbers', () => {
+test('a form begins with the declared values, and sends whole numbers', () => {
   const [setV] = functions;
   if (setV === undefined) throw new Error('there is none');
   expect(startsOf(setV)).toEqual({ axis: '1', data: '1000' });
@@ -86,7 +86,7 @@ test('ranges have their units or their values', () => {
   expect(rangeText({ ...axes, sum: false })).toBe('1 X, 2 Y');
 });
 
-test('parts of a sum are put in and taken out', () => {
+test('parts of a sum are added and removed', () => {
   expect(turned(1, 2)).toBe(3);
   expect(turned(3, 1)).toBe(2);
 });

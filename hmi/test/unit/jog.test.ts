@@ -77,7 +77,7 @@ describe('a jog', () => {
     expect(lease.jogging.value).toBe('');
   });
 
-  test('that is begun again is renewed no more often than before', async () => {
+  test('is renewed no more often if it is begun again', async () => {
     const { lease, program } = await opened();
     lease.begin('key', 'X', 1);
     lease.end('key');
@@ -93,14 +93,14 @@ describe('a jog', () => {
     expect(jogs(program)).toEqual([['X', 10]]);
   });
 
-  test('of an axis that the machine does not have is not sent', async () => {
+  test('is not sent for an axis that the machine does not have', async () => {
     const { lease, program } = await opened();
     lease.begin('key', 'B', 1);
     await after(200);
     expect([jogs(program), lease.jogging.value]).toEqual([[], '']);
   });
 
-  test('that the program rejects is not requested again', async () => {
+  test('is not requested again after the program rejected it', async () => {
     const { lease, program } = await opened();
     program.answers.jog = 'X stands at its limit.';
     lease.begin('key', 'X', 1);
@@ -128,7 +128,7 @@ describe('the commands of a jog', () => {
     expect(program.asked('jog_stop').map(({ sequence }) => sequence)).toEqual([4]);
   });
 
-  test('end when a renewal is refused: what has stopped the axis stays its stop until another press', async () => {
+  test('end when a renewal is refused, until the key is pressed again', async () => {
     const { lease, program } = await opened();
     lease.begin('key', 'X', 1);
     await after(80);
@@ -141,7 +141,7 @@ describe('the commands of a jog', () => {
     expect(lease.jogging.value).toBe('+X');
   });
 
-  test('of a second press are not ended by the late refusal of the first', async () => {
+  test('continue for a second press after a late refusal of the first', async () => {
     const { lease, program } = await opened();
     program.answers.jog = 'X stands at its limit.';
     lease.begin('key', 'X', 1);
@@ -154,7 +154,7 @@ describe('the commands of a jog', () => {
 });
 
 describe('two held jogs', () => {
-  test('of two axes: releasing one key stops its axis alone', async () => {
+  test('stop alone: releasing one key stops its axis only', async () => {
     const { lease, program } = await opened();
     lease.begin('a', 'X', 1);
     lease.begin('b', 'Y', 1);
@@ -167,7 +167,7 @@ describe('two held jogs', () => {
     expect(stops(program)).toBe(1);
   });
 
-  test('of one axis: the later one counts, and letting the earlier one go changes nothing', async () => {
+  test('of one axis follow the later key, and releasing the earlier one changes nothing', async () => {
     const { lease, program } = await opened();
     lease.begin('a', 'X', 1);
     lease.begin('b', 'X', -1);
@@ -200,14 +200,14 @@ describe('a jog ends', () => {
     await ended(program);
   });
 
-  test('with a stop for the program, where there is a connection', async () => {
+  test('with a stop command, if the page is connected', async () => {
     const { browser, lease, program } = await opened();
     lease.begin('key', 'X', 1);
     browser.hide(true);
     expect(stops(program)).toBe(1);
   });
 
-  test('not when the page is shown, and nothing is sent where nothing jogs', async () => {
+  test('only if one is active, and not when the page is shown', async () => {
     const { browser, lease, program } = await opened();
     browser.window.dispatchEvent(new Event('blur'));
     lease.begin('key', 'X', 1);
@@ -218,7 +218,7 @@ describe('a jog ends', () => {
 });
 
 describe('a step', () => {
-  test('is one move a press, however long it is held', async () => {
+  test('is one move per press, however long the key is held', async () => {
     const { lease, program } = await opened({ stored: { 'motionrack.jog.step': '2' } });
     lease.begin('key', 'X', -1);
     await after(1000);

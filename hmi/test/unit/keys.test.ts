@@ -70,7 +70,7 @@ describe('the table', () => {
     expect(['PageUp', '[', 'x'].map(jogOf)).toEqual([null, null, null]);
   });
 
-  test('has the first axis that is none of X, Y and Z on the brackets', async () => {
+  test('has the first axis other than X, Y and Z on the brackets', async () => {
     await connected({ machine: { axes: ['X', 'C', 'B'].map((letter) => axis(letter)) } });
     expect((await table()).jogOf(']')).toEqual({ axis: 'C', direction: 1 });
   });
@@ -83,7 +83,7 @@ describe('the jog pad', () => {
     ['XYZABC', { x: 'X', y: 'Y', columns: ['Z', 'A', 'B', 'C'] }],
     ['UV', { columns: ['U', 'V'] }],
     ['', { columns: [] }],
-  ])('of the axes %s has X and Y crosswise and every other one in a column', async (letters, pad) => {
+  ])('has X and Y crosswise and every other axis in a column (%s)', async (letters, pad) => {
     await connected();
     expect((await table()).padOf([...letters])).toEqual(pad);
   });
@@ -116,7 +116,7 @@ describe('a key', () => {
     expect(program.asked('set_overrides')).toEqual([{ command: 'set_overrides', feed }]);
   });
 
-  test('of the table with Ctrl acts only with Ctrl, and the others only without', async () => {
+  test('acts only with Ctrl if the table has it with Ctrl, otherwise only without', async () => {
     const { browser, program } = await listening();
     expect(key(browser, 'keydown', 'Home')).toBe(false);
     expect(key(browser, 'keydown', 's', { ctrlKey: true })).toBe(false);
@@ -124,13 +124,13 @@ describe('a key', () => {
     expect(commands(program)).toEqual(['home']);
   });
 
-  test.each([{ altKey: true }, { metaKey: true }])('with %o is the browser’s', async (modifier) => {
+  test.each([{ altKey: true }, { metaKey: true }])('is left to the browser with %o', async (modifier) => {
     const { browser, program } = await listening();
     expect(key(browser, 'keydown', 's', modifier)).toBe(false);
     expect(commands(program)).toEqual([]);
   });
 
-  test('that is written with AltGr, which some systems call Ctrl and Alt, acts', async () => {
+  test('acts with AltGr, which some systems report as Ctrl and Alt', async () => {
     const { browser, program } = await listening();
     expect(key(browser, 'keydown', '~', { altGraph: true, ctrlKey: true, altKey: true })).toBe(true);
     expect(commands(program)).toEqual([]);
@@ -139,26 +139,26 @@ describe('a key', () => {
   });
 });
 
-describe('a key that is held, or not of the table,', () => {
-  test('acts once while it repeats, and is kept from the page all the same', async () => {
+describe('the keyboard', () => {
+  test('executes a repeating key once, and keeps it from the page', async () => {
     const { browser, program } = await listening();
     key(browser, 'keydown', ' ');
     expect(key(browser, 'keydown', ' ', { repeat: true })).toBe(true);
     expect(commands(program)).toEqual(['hold']);
   });
 
-  test('does nothing while it composes a letter', async () => {
+  test('ignores keys that compose a letter', async () => {
     const { browser, program } = await listening();
     key(browser, 'keydown', 's', { isComposing: true });
     expect(commands(program)).toEqual([]);
   });
 
-  test('is the page’s where the table does not have it', async () => {
+  test('leaves keys outside of the table to the page', async () => {
     const { browser } = await listening();
     expect(key(browser, 'keydown', 'q')).toBe(false);
   });
 
-  test('does not click a button when it is Space and let go, but goes to a field', async () => {
+  test('keeps the release of Space from buttons, but not from fields', async () => {
     const { browser } = await listening();
     expect(key(browser, 'keyup', ' ')).toBe(true);
     expect(key(browser, 'keyup', ' ', { target: new FakeInput() })).toBe(false);
@@ -175,7 +175,7 @@ describe('a key of the page itself', () => {
     expect(helpOpen.value).toBe(false);
   });
 
-  test('Escape closes dialogs, and is STOP all the same', async () => {
+  test('Escape closes dialogs, and is STOP as well', async () => {
     const { browser, program } = await listening();
     const { dialogOpen, inviteOpen } = await import('../../src/link/pairing');
     dialogOpen.value = inviteOpen.value = true;
@@ -183,7 +183,7 @@ describe('a key of the page itself', () => {
     expect([dialogOpen.value, inviteOpen.value, commands(program)]).toEqual([false, false, ['stop']]);
   });
 
-  test('i goes through the steps and leaves continuous jogging out; c is that', async () => {
+  test('i selects the next step, and c continuous jogging', async () => {
     const { browser } = await listening({ stored: { 'motionrack.jog.step': '3' } });
     const { STEPS, stepIndex } = await lease();
     const steps = ['i', 'i', 'i', 'c', 'i'].map((name) => (key(browser, 'keydown', name), STEPS[stepIndex.value]));
@@ -241,7 +241,7 @@ describe('a jog key', () => {
     expect(program.asked('jog_stop')).toHaveLength(1);
   });
 
-  test('makes one step a press, however long it repeats', async () => {
+  test('makes one step per press, however long it repeats', async () => {
     const { browser, program } = await listening({ stored: { 'motionrack.jog.step': '2' } });
     (await lease()).setArmed(true);
     key(browser, 'keydown', 'ArrowRight');
@@ -249,7 +249,7 @@ describe('a jog key', () => {
     expect(commands(program)).toEqual(['jog_by']);
   });
 
-  test('with Shift jogs at the maximum velocity until Shift is let go', async () => {
+  test('jogs at the maximum velocity while Shift is held', async () => {
     const { browser, program } = await listening(HOLD);
     (await lease()).setArmed(true);
     key(browser, 'keydown', 'ArrowRight', { shiftKey: true });
@@ -259,7 +259,7 @@ describe('a jog key', () => {
     expect(program.asked('jog').at(-1)?.speed).toBe(10);
   });
 
-  test('whose letter changed with Shift while it was held is let go all the same', async () => {
+  test('is released even if Shift changed its letter while it was held', async () => {
     const { browser, program } = await listening(HOLD);
     (await lease()).setArmed(true);
     key(browser, 'keydown', ']', { code: 'BracketRight' });
@@ -269,7 +269,7 @@ describe('a jog key', () => {
 });
 
 describe('a jog key that may not jog', () => {
-  test('with Ctrl, Alt or Meta is another key', async () => {
+  test('is another key with Ctrl, Alt or Meta', async () => {
     const { browser, program } = await listening(HOLD);
     (await lease()).setArmed(true);
     for (const modifier of [{ ctrlKey: true }, { altKey: true }, { metaKey: true }])

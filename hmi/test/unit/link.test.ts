@@ -7,7 +7,7 @@ const channels = async (): Promise<typeof import('../../src/link/channels')> => 
 const control = async (): Promise<typeof import('../../src/link/control')> => import('../../src/link/control');
 
 describe('channels', () => {
-  test('of all panels are one subscription, at the highest rate of them', async () => {
+  test('are one subscription for all panels, at the highest rate of them', async () => {
     const { program } = await connected();
     const { want } = await channels();
     want(['X.error', 'limit.x'], 10);
@@ -25,7 +25,7 @@ describe('channels', () => {
     expect(program.asked('subscribe').at(-1)).toEqual({ subscribe: { channels: ['X.error'], rate_hz: 20 } });
   });
 
-  test('of a panel that was closed are left out again', async () => {
+  test('end with their panel', async () => {
     const { program } = await connected();
     const { want } = await channels();
     const close = want(['mcx.CV'], 100);
@@ -44,7 +44,7 @@ describe('channels', () => {
     expect([subscribe.channels.length, subscribe.channels.at(-1)]).toEqual([64, 'c63']);
   });
 
-  test('are subscribed again on a connection that came back', async () => {
+  test('are subscribed again after a reconnection', async () => {
     const { program } = await connected();
     (await channels()).want(['X.error']);
     await settled();
@@ -55,7 +55,7 @@ describe('channels', () => {
 });
 
 describe('values of channels', () => {
-  test('are those of the newest picture, in the order of the subscription', async () => {
+  test('are those of the newest status message, in the order of the subscription', async () => {
     const { program } = await connected();
     const { channel, want } = await channels();
     want(['X.error', 'limit.x']);
@@ -67,7 +67,7 @@ describe('values of channels', () => {
     expect([channel('X.error').value, channel('limit.x').value]).toEqual([null, 0]);
   });
 
-  test('stay where a picture belongs to another subscription, or has none', async () => {
+  test('stay if a status message belongs to another subscription, or has none', async () => {
     const { program } = await connected();
     const { channel, want } = await channels();
     want(['X.error', 'limit.x']);
@@ -78,7 +78,7 @@ describe('values of channels', () => {
     expect([channel('X.error').value, channel('limit.x').value]).toEqual([0.25, 1]);
   });
 
-  test('are not read from pictures after a subscription that was refused', async () => {
+  test('are not read from status messages after a subscription was refused', async () => {
     const { program } = await connected();
     const { channel, want } = await channels();
     want(['X.error']);
@@ -93,7 +93,7 @@ describe('values of channels', () => {
 });
 
 describe('control', () => {
-  test('is taken without force where it is free', async () => {
+  test('is taken without force if it is free', async () => {
     const { program } = await connected({ machine: { control: { holder: null } } });
     const { takeControl, whyNotControl } = await control();
     expect(whyNotControl()).toBe('');
@@ -129,13 +129,13 @@ describe('control', () => {
     expect((await control()).whyNotControl()).toMatch(/needs the role operate/);
   });
 
-  test('is given back', async () => {
+  test('is released', async () => {
     const { program } = await connected();
     (await control()).releaseControl();
     expect(program.asked('release_control')).toHaveLength(1);
   });
 
-  test('is kept every 3 s, by the tab that holds it alone', async () => {
+  test('is renewed every 3 s, only by the tab that holds it', async () => {
     const { program } = await connected();
     (await control()).keepControl();
     const wait = async (): Promise<void> => {
@@ -154,7 +154,7 @@ describe('control', () => {
 describe('the rack', () => {
   const mcx = { name: 'mcx', type: 'mcx314' };
 
-  test('and its channels are asked for once a connection', async () => {
+  test('is queried once per connection, with its channels', async () => {
     const { program } = await connected();
     const { cardNamed, channelNames, rack } = await import('../../src/link/rack');
     expect(rack.value).toBeNull();
@@ -177,12 +177,12 @@ describe('the rack', () => {
   });
 });
 
-describe('what happened before the page was opened', () => {
+describe('the history', () => {
   const load = async (): Promise<void> => (await import('../../src/link/history')).loadHistory();
   const numbers = async (): Promise<number[]> =>
     (await import('../../src/link/state')).events.value.map((one) => one.number);
 
-  test('stands before what came since', async () => {
+  test('precedes the events since the page was opened', async () => {
     const { program } = await connected();
     program.answers.events = { events: [1, 2, 3].map((number) => ({ number, at: 0, kind: 'state', text: '' })) };
     program.say({ event: { number: 3, at: 1, kind: 'state', text: '' } });
@@ -192,7 +192,7 @@ describe('what happened before the page was opened', () => {
     expect(await numbers()).toEqual([1, 2, 3, 4]);
   });
 
-  test('is nothing where the program does not say it', async () => {
+  test('is empty if the program does not report it', async () => {
     const { program } = await connected();
     program.answers.events = 'not for you';
     await load();

@@ -4,7 +4,7 @@ import { duration, fixed, hex, percent, position, seconds, typed, unitName, whol
 
 const THIN = '\u2009';
 
-test('a number has as many decimals as were asked for', () => {
+test('a number has the requested decimals', () => {
   expect(fixed(1.23456, 3)).toBe('1.235');
   expect(fixed(7, 2)).toBe('7.00');
   expect(fixed(0.5, 0)).toBe('1');
@@ -12,12 +12,12 @@ test('a number has as many decimals as were asked for', () => {
 
 test('a negative number has a true minus sign, as wide as a digit', () => expect(fixed(-2.5, 1)).toBe('−2.5'));
 
-test('what rounds to zero has no sign', () => {
+test('a number that rounds to zero has no sign', () => {
   expect(fixed(-0.0004, 3)).toBe('0.000');
   expect(fixed(-0, 1)).toBe('0.0');
 });
 
-test.each([null, undefined, NaN, Infinity, -Infinity])('where there is no number (%s) a dash stands', (none) => {
+test.each([null, undefined, NaN, Infinity, -Infinity])('a missing number (%s) is shown as a dash', (none) => {
   expect(fixed(none, 3)).toBe('–');
   expect(whole(none)).toBe('–');
   expect(hex(none, 8)).toBe('–');
@@ -71,7 +71,7 @@ test('a duration that rounds up to a minute or an hour carries over', () => {
 
 test('a duration is never below zero', () => expect(duration(-3)).toBe('0:00.0'));
 
-test('a time of the machine has milliseconds', () => expect(seconds(12.3456)).toBe('12.346 s'));
+test('a time of the machine is shown with milliseconds', () => expect(seconds(12.3456)).toBe('12.346 s'));
 
 test('degrees have their sign; other units are written as they are called', () => {
   expect(unitName('deg')).toBe('°');
@@ -86,8 +86,8 @@ test.each([
   ['0,25', 0.25],
   ['1e3', 1000],
   ['.5', 0.5],
-])('"%s" is typed for %d', (text, value) => expect(typed(text)).toBe(value));
+])('"%s" is read as %d', (text, value) => expect(typed(text)).toBe(value));
 
-test.each(['', '  ', 'X', '1 2', '1.2.3', '1,000,000', 'Infinity', '--1'])('"%s" is no number', (text) =>
+test.each(['', '  ', 'X', '1 2', '1.2.3', '1,000,000', 'Infinity', '--1'])('"%s" is not a number', (text) =>
   expect(typed(text)).toBeNull(),
 );

@@ -6,7 +6,7 @@ import { connected } from './program';
 const pairing = async (): Promise<typeof import('../../src/link/pairing')> => import('../../src/link/pairing');
 const good = { ok: true, status: 200, body: { token: 'T1' } };
 
-test('a code that was typed is sent in capitals, with the name, both without blanks around them', async () => {
+test('a typed code is sent in capitals with the name, both without surrounding blanks', async () => {
   const { browser, program } = await connected();
   browser.http = good;
   program.answers.token = { role: 'operate', user: 'carl' };
@@ -17,7 +17,7 @@ test('a code that was typed is sent in capitals, with the name, both without bla
   expect((await import('../../src/link/state')).user.value).toBe('carl');
 });
 
-test('a code that is refused leaves the browser without a token, with the program’s sentence', async () => {
+test('a refused code leaves the browser without a token and shows the reason', async () => {
   const browser = openBrowser();
   browser.http = {
     ok: false,
@@ -34,7 +34,7 @@ test('an answer without a sentence gets one', async () => {
   await expect((await pairing()).pair('X', 'carl')).rejects.toThrow('answered 500; this browser is not paired.');
 });
 
-test('a code in the address is taken out of it at once, and used', async () => {
+test('a code in the address is removed from it at once, and used', async () => {
   const browser = openBrowser({ hash: '#pair=ABCD%2DEFGH', stored: { 'motionrack.name': 'carl' } });
   browser.http = good;
   const done = (await pairing()).pairFromAddress();
@@ -59,7 +59,7 @@ test('a rejected code of the address is shown in the dialog with the reason', as
   expect([dialogOpen.value, codeText.value, whyNotPaired.value]).toEqual([true, 'ABCD', 'Too late.']);
 });
 
-test('a code in the address that is badly written does not break the page', async () => {
+test('a malformed code in the address does not break the page', async () => {
   const browser = openBrowser({ hash: '#pair=%E0%A4%A' });
   browser.http = new Error('offline');
   const { codeText, pairFromAddress } = await pairing();
@@ -74,7 +74,7 @@ test('an address without a code pairs nothing and stays as it is', async () => {
   expect([browser.posts, browser.location.hash]).toEqual([[], '#/scope']);
 });
 
-test('a browser that is forgotten has no token after the reload', async () => {
+test('a revoked browser has no token after the reload', async () => {
   const browser = openBrowser({ stored: { 'motionrack.token': 'T1' } });
   browser.http = { ok: true, status: 200, body: { done: true } };
   await (await pairing()).forget();
@@ -83,7 +83,7 @@ test('a browser that is forgotten has no token after the reload', async () => {
   expect(browser.location.reload).toHaveBeenCalledOnce();
 });
 
-test('a browser that is forgotten without the program has no token either', async () => {
+test('a browser revoked without a connection has no token either', async () => {
   const browser = openBrowser({ stored: { 'motionrack.token': 'T1' } });
   browser.http = new Error('offline');
   await (await pairing()).forget();

@@ -29,7 +29,7 @@ describe('the planned path', () => {
     [4, 5, 6],
   ];
 
-  test('of the program that runs is in the order of the page’s axes', async () => {
+  test('has the order of the page’s axes', async () => {
     const { data, program } = await following('XYZ');
     await next(program, { number: 1, axes: 'ZYX', planned: plan });
     expect(data.planned.value).toEqual([
@@ -48,7 +48,7 @@ describe('the planned path', () => {
     ]);
   });
 
-  test('is asked for by its number, and comes again only when it is another one', async () => {
+  test('is requested by its number, and sent again only if it has changed', async () => {
     const { data, program } = await following();
     await next(program, { number: 4, planned: plan });
     await next(program, { number: 4, planned: null });
@@ -56,14 +56,14 @@ describe('the planned path', () => {
     expect(data.planned.value).toHaveLength(2);
   });
 
-  test('that is a single point leaves the one before', async () => {
+  test('keeps the previous one instead of a single point', async () => {
     const { data, program } = await following();
     await next(program, { number: 1, planned: plan });
     await next(program, { number: 2, planned: [[9, 9, 9]] });
     expect(data.planned.value).toHaveLength(2);
   });
 
-  test('of a checked program is shown until another one runs', async () => {
+  test('shows a checked program until another one runs', async () => {
     const { data, program } = await following();
     const { checked } = await import('../../src/path/checked');
     checked.value = { ok: true, problems: [], lines: 2, axes: 'YX', path: plan };
@@ -79,8 +79,8 @@ describe('the planned path', () => {
   });
 });
 
-describe('the driven path', () => {
-  test('grows by what is new since its last point', async () => {
+describe('the actual path', () => {
+  test('grows by the points since its last one', async () => {
     const { data, program } = await following();
     await next(program, { driven: [[1, 10, 20, 30]], errors: [0.5] });
     await next(program, { driven: [[2, 11, 21, 31]] });
@@ -97,7 +97,7 @@ describe('the driven path', () => {
     expect([data.driven.value.length, data.driven.value[0]?.at]).toEqual([6000, 1]);
   });
 
-  test('that was cleared does not come back', async () => {
+  test('stays cleared', async () => {
     const { data, program } = await following();
     await next(program, { driven: [[1, 0, 0, 0]] });
     program.show({ at: 7, state: 'hold' });
@@ -107,7 +107,7 @@ describe('the driven path', () => {
     expect(program.asked('path').at(-1)).toMatchObject({ since: 7 });
   });
 
-  test('of a program that was started anew begins anew', async () => {
+  test('begins again after a restart of the program', async () => {
     const { data, program } = await following();
     await next(program, { number: 4, driven: [[1, 0, 0, 0]] });
     program.greet({ boot: 'second' });
@@ -116,7 +116,7 @@ describe('the driven path', () => {
     expect(program.asked('path').at(-1)).toMatchObject({ have: 0, since: -1 });
   });
 
-  test('has a greatest error, a micrometre at least', async () => {
+  test('has a maximum error, at least a micrometre', async () => {
     const { data, program } = await following();
     expect(data.maxError.value).toBe(0.001);
     await next(program, {
@@ -130,7 +130,7 @@ describe('the driven path', () => {
   });
 });
 
-describe('following', () => {
+describe('following the path', () => {
   test('sends five queries per second', async () => {
     const { program } = await following();
     for (let i = 0; i < 5; ++i) {

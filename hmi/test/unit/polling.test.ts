@@ -17,7 +17,7 @@ async function polling(): Promise<{ browser: Browser; program: Program; polled: 
 }
 
 describe('a query of a panel', () => {
-  test('is queried at once, and again an interval after each answer', async () => {
+  test('is sent at once, and again an interval after each answer', async () => {
     const { polled, program } = await polling();
     expect(program.asked('card')).toEqual([{ query: 'card', name: 'mcx' }]);
     program.answers.card = { word: 7 };
@@ -30,7 +30,7 @@ describe('a query of a panel', () => {
     expect(polled.data.value).toMatchObject({ word: 7 });
   });
 
-  test('is not queried again before its answer', async () => {
+  test('is not sent again before its answer', async () => {
     const { program } = await polling();
     for (let i = 0; i < 8; ++i) {
       program.show();
@@ -39,7 +39,7 @@ describe('a query of a panel', () => {
     expect(program.asked('card')).toHaveLength(1);
   });
 
-  test('that is rejected reports the reason, keeps its last data and is repeated', async () => {
+  test('reports a refusal, keeps its last data and is repeated', async () => {
     const { polled, program } = await polling();
     program.say({ id: program.heard.at(-1)?.id, word: 6 });
     program.answers.card = 'Unknown card mcx.';
@@ -50,7 +50,7 @@ describe('a query of a panel', () => {
     expect([polled.data.value, polled.why.value]).toMatchObject([{ word: 8 }, '']);
   });
 
-  test('is not queried while the page is hidden', async () => {
+  test('is not sent while the page is hidden', async () => {
     const { browser, program } = await polling();
     program.answers.card = { word: 7 };
     program.say({ id: program.heard.at(-1)?.id, word: 6 });
@@ -62,7 +62,7 @@ describe('a query of a panel', () => {
     expect(program.asked('card')).toHaveLength(2);
   });
 
-  test('ends with its panel: an answer that comes later is not shown, and nothing is asked again', async () => {
+  test('ends with its panel: a later answer is not shown, and no query follows', async () => {
     const { polled, program, stop } = await polling();
     stop();
     program.say({ id: program.heard.at(-1)?.id, word: 6 });
@@ -93,7 +93,7 @@ describe('the last seconds of channels', () => {
     });
   });
 
-  test('are in seconds before now, one row per channel', async () => {
+  test('are given in seconds before now, one row per channel', async () => {
     const { data, program } = await recording();
     await next(program, 5, [1, 10]);
     await next(program, 6, [2, null]);
@@ -104,7 +104,7 @@ describe('the last seconds of channels', () => {
     ]);
   });
 
-  test('end where they are too long ago', async () => {
+  test('are dropped when they are too old', async () => {
     const { data, program } = await recording();
     for (const at of [1, 5, 11, 13, 14]) await next(program, at, [at, 0]);
     expect(data.value[0]).toEqual([-9, -3, -1, 0]);

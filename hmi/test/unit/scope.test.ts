@@ -12,34 +12,34 @@ const ROWS = [
   [5, null, null, null],
 ];
 
-describe('reading a recording', () => {
-  test('a channel has its value from before where it did not change', () => {
+describe('the scope’s table and cursors', () => {
+  test('keep the last value of a channel that did not change', () => {
     expect([0, 1, 2, 3].map((i) => valueAt(ROWS[1] ?? [], i))).toEqual([null, 1, 1, 3]);
     expect(valueAt(ROWS[2] ?? [], 3)).toBe(5);
   });
 
-  test('a channel without any value has none', () => expect(valueAt([], 2)).toBeNull());
+  test('have no value for a channel without values', () => expect(valueAt([], 2)).toBeNull());
 
-  test('a cursor snaps to the nearest time', () => {
+  test('snap to the nearest time', () => {
     expect(nearest([-10, 0, 10], -99)).toBe(0);
     expect(nearest([-10, 0, 10], 4.9)).toBe(1);
     expect(nearest([-10, 0, 10], 5.1)).toBe(2);
     expect(nearest([], 3)).toBe(0);
   });
 
-  test('cursors are initially at one third and two thirds', () => {
+  test('begin at one third and two thirds', () => {
     expect(thirds([0, 1, 2, 3, 4, 5])).toEqual([2, 4]);
     expect(thirds([0, 1, 2])).toBeNull();
   });
 
-  test('the table has a head, a row a time, and nothing where nothing changed', () => {
+  test('have a head, a row per time, and empty cells without a change', () => {
     expect(csv(['X.error', 'limit'], ROWS)).toBe('time_ms,X.error,limit\n-10,,5\n0,1,\n10,,\n20,3,\n');
   });
 
-  test('the table of nothing is its head', () => expect(csv([], [])).toBe('time_ms\n'));
+  test('have only a head without samples', () => expect(csv([], [])).toBe('time_ms\n'));
 });
 
-describe('finding channels', () => {
+describe('the search for channels', () => {
   const all = [
     { name: 'X.error', unit: 'mm', text: 'following error of the axis' },
     { name: 'Y.error', unit: 'mm', text: 'following error of the axis' },
@@ -47,17 +47,17 @@ describe('finding channels', () => {
   ];
   const found = (text: string, chosen: string[] = []): string[] => matching(all, chosen, text).map((one) => one.name);
 
-  test('a part of the name finds a channel, large or small', () =>
+  test('finds a channel by a part of its name, in any case', () =>
     expect(found('ERR')).toEqual(['X.error', 'Y.error']));
 
-  test('nothing typed finds all', () => expect(found('')).toHaveLength(3));
+  test('finds all without a text', () => expect(found('')).toHaveLength(3));
 
-  test('from four letters on the meaning counts, too', () => {
+  test('includes the meaning from four letters on', () => {
     expect(found('swi')).toEqual([]);
     expect(found('swit')).toEqual(['limit.x']);
   });
 
-  test('what is chosen already is not found again', () => expect(found('error', ['X.error'])).toEqual(['Y.error']));
+  test('omits channels that are chosen already', () => expect(found('error', ['X.error'])).toEqual(['Y.error']));
 });
 
 describe('arming', () => {
@@ -89,7 +89,7 @@ describe('arming', () => {
     });
   });
 
-  test('without a trigger has no edge and no level', () => {
+  test('sends no edge and no level without a trigger', () => {
     expect(armFields({ ...now, trigger: '' }, 'run')).toEqual({
       channels: ['X.error', 'limit.x'],
       period_us: 50,
@@ -99,7 +99,7 @@ describe('arming', () => {
     });
   });
 
-  test.each(['level', 'period', 'length', 'pre'] as const)('is not done when the %s is no number', (field) => {
+  test.each(['level', 'period', 'length', 'pre'] as const)('is refused if the %s is not a number', (field) => {
     expect(armFields({ ...now, [field]: 'soon' }, 'run')).toBeNull();
     expect(armFields({ ...now, [field]: '' }, 'run')).toBeNull();
   });
@@ -120,7 +120,7 @@ describe('settings of the scope', () => {
     expect(settings.value).toMatchObject({ channels: ['X.error'], level: '2', edge: 'rise' });
   });
 
-  test('that an older page lacked have their default value', async () => {
+  test('have their default value if an older page lacked them', async () => {
     const [, { settings }] = await opened({ 'motionrack.scope': '{"length":"5"}' });
     expect(settings.value).toMatchObject({ length: '5', pre: '20', channels: [] });
   });
@@ -134,8 +134,8 @@ const recorder = async (): Promise<typeof import('../../src/scope/recorded')> =>
   return import('../../src/scope/recorded');
 };
 
-describe('what was recorded', () => {
-  test('samples are equidistant, in milliseconds from the trigger', async () => {
+describe('the samples of a recording', () => {
+  test('are equidistant, in milliseconds from the trigger', async () => {
     const { keep, recorded } = await recorder();
     keep({ state: 'done', capture: { ...capture, traces: [samples] } });
     expect(recorded.value).toEqual({
@@ -149,7 +149,7 @@ describe('what was recorded', () => {
     });
   });
 
-  test('a wire has its level from before at the beginning, and its last one at the end', async () => {
+  test('begin with the level before them, and end with the last one', async () => {
     const { keep, recorded } = await recorder();
     keep({ state: 'done', capture: { ...capture, traces: [edges] } });
     expect(recorded.value.stepped).toEqual(['limit.x']);
@@ -159,7 +159,7 @@ describe('what was recorded', () => {
     ]);
   });
 
-  test('a wire that did not change is a line from beginning to end', async () => {
+  test('are one line for a wire that did not change', async () => {
     const { keep, recorded } = await recorder();
     keep({ state: 'done', capture: { ...capture, traces: [{ ...edges, values: [], at: [], before: 1 }] } });
     expect(recorded.value.rows).toEqual([
@@ -168,7 +168,7 @@ describe('what was recorded', () => {
     ]);
   });
 
-  test('channels of both kinds share one list of times', async () => {
+  test('share one list of times for both kinds of channels', async () => {
     const { keep, recorded } = await recorder();
     keep({ state: 'done', capture: { ...capture, traces: [samples, edges] } });
     expect(recorded.value.rows).toEqual([
@@ -180,7 +180,7 @@ describe('what was recorded', () => {
 });
 
 describe('a recording', () => {
-  test('stays where an answer has no new one', async () => {
+  test('stays if an answer has no new one', async () => {
     const { keep, recorded } = await recorder();
     keep({ state: 'done', capture: { ...capture, traces: [samples] } });
     const kept = recorded.value;
@@ -190,7 +190,7 @@ describe('a recording', () => {
     expect(recorded.value).toBe(kept);
   });
 
-  test('is gone with a program that was started anew, and outlasts a lost connection', async () => {
+  test('is discarded after a restart of the program, and outlasts a lost connection', async () => {
     const { program } = await connected();
     const { keep, recorded } = await import('../../src/scope/recorded');
     keep({ state: 'done', capture: { ...capture, traces: [samples] } });

@@ -21,8 +21,8 @@ describe('the address of the stream', () => {
   });
 });
 
-describe('a question', () => {
-  test('gets its own answer, whatever the order they come in', async () => {
+describe('a query', () => {
+  test('gets its own answer, in any order of answers', async () => {
     const { program } = await connected();
     const { ask } = await link();
     const [first, second] = [ask({ query: 'rack' }), ask({ query: 'path' })];
@@ -33,7 +33,7 @@ describe('a question', () => {
     expect((await second).text).toBe('second');
   });
 
-  test('that is refused throws the program’s sentence', async () => {
+  test('throws the reason of a refusal', async () => {
     const { program } = await connected();
     program.answers.home = 'The drives are disabled. Enable them first.';
     await expect((await link()).ask({ command: 'home' })).rejects.toThrow(
@@ -41,12 +41,12 @@ describe('a question', () => {
     );
   });
 
-  test('without a connection is not sent, and reports it', async () => {
+  test('is not sent without a connection, and reports it', async () => {
     openBrowser();
     await expect((await link()).ask({ command: 'home' })).rejects.toThrow('Nothing was sent.');
   });
 
-  test('that is not answered for 15 s is given up, and a late answer changes nothing', async () => {
+  test('times out after 15 s, and a late answer changes nothing', async () => {
     const { program } = await connected();
     const answer = (await link()).ask({ command: 'home' });
     const failed = expect(answer).rejects.toThrow('not answered for 15 s');
@@ -58,7 +58,7 @@ describe('a question', () => {
     program.say({ id: program.heard.at(-1)?.id });
   });
 
-  test('that was answered in time is not given up later', async () => {
+  test('does not time out after its answer', async () => {
     const { program } = await connected();
     program.answers.home = { done: true };
     await expect((await link()).ask({ command: 'home' })).resolves.toMatchObject({ done: true });
@@ -78,7 +78,7 @@ describe('a question', () => {
 });
 
 describe('a lost connection', () => {
-  test('is made again, after 250 ms at first, then after twice as long, up to 4 s', async () => {
+  test('is retried after 250 ms, then after twice as long, up to 4 s', async () => {
     const { browser } = await connected();
     for (const wait of [250, 500, 1000, 2000, 4000, 4000]) {
       const before = browser.connections;
@@ -90,7 +90,7 @@ describe('a lost connection', () => {
     }
   });
 
-  test('is made again soon after one that was greeted', async () => {
+  test('is retried soon after a connection that was greeted', async () => {
     const { browser } = await connected();
     browser.socket.close();
     await after(250);
@@ -103,7 +103,7 @@ describe('a lost connection', () => {
     expect(browser.connections).toBe(before + 1);
   });
 
-  test('is noticed when nothing comes for 4 s, even though it was not closed', async () => {
+  test('is detected after 4 s of silence, even if it was not closed', async () => {
     const { browser } = await connected();
     await after(3900);
     expect((await state()).link.value).toBe('open');
@@ -112,7 +112,7 @@ describe('a lost connection', () => {
     expect(browser.connections).toBeGreaterThan(1);
   });
 
-  test('is not looked for while the page is hidden, where a browser lets it sleep', async () => {
+  test('is not detected while the page is hidden, because browsers suspend it', async () => {
     const { browser } = await connected();
     browser.hide(true);
     await after(10_000);
@@ -120,8 +120,8 @@ describe('a lost connection', () => {
   });
 });
 
-describe('a connection that is gone', () => {
-  test('calls what waits for it, once', async () => {
+describe('a closed connection', () => {
+  test('notifies its listeners once', async () => {
     const { browser } = await connected();
     let times = 0;
     (await link()).whenLost(() => ++times);
@@ -130,7 +130,7 @@ describe('a connection that is gone', () => {
     expect((await state()).link.value).toBe('lost');
   });
 
-  test('is silent: messages of an old socket are ignored', async () => {
+  test('is ignored: messages of an old socket have no effect', async () => {
     const { browser } = await connected({ machine: { state: 'standstill' } });
     browser.socket.close();
     browser.socket.readyState = FakeSocket.OPEN;
@@ -141,13 +141,13 @@ describe('a connection that is gone', () => {
   });
 });
 
-describe('pictures', () => {
+describe('status messages', () => {
   test('show the machine', async () => {
     await connected({ machine: { state: 'hold' } });
     expect((await state()).machineState.value).toBe('hold');
   });
 
-  test('that arrive faster than the page draws are skipped by its panels and delivered to subscribers of each', async () => {
+  test('are skipped by panels that draw more slowly, and delivered to subscribers of each', async () => {
     const { program } = await connected();
     const seen: number[] = [];
     (await link()).whenPicture((picture) => seen.push(picture.at));
@@ -156,7 +156,7 @@ describe('pictures', () => {
     expect((await state()).status.value?.at).toBe(2);
   });
 
-  test('with another state of the machine are shown at once', async () => {
+  test('are shown at once if the machine’s state has changed', async () => {
     const { program } = await connected();
     program.show({ at: 2 });
     program.show({ at: 3, state: 'moving' });
@@ -173,7 +173,7 @@ describe('pictures', () => {
     expect(times).toBe(1);
   });
 
-  test('that the program left out are counted', async () => {
+  test('are counted if the program skipped them', async () => {
     const { program } = await connected();
     program.show({}, undefined, 3);
     program.show({}, undefined, 2);
@@ -191,14 +191,14 @@ describe('events', () => {
     expect(heard).toEqual([2, 1, 3]);
   });
 
-  test('are forgotten from the oldest on beyond 500', async () => {
+  test('are limited to the newest 500', async () => {
     const { program } = await connected();
     for (let number = 1; number <= 502; ++number) program.say({ event: event(number) });
     const kept = (await state()).events.value;
     expect([kept.length, kept[0]?.number, kept.at(-1)?.number]).toEqual([500, 3, 502]);
   });
 
-  test('of a program that was started anew do not mix with older ones', async () => {
+  test('are kept apart from those before a restart of the program', async () => {
     const { program } = await connected();
     program.say({ event: event(7) });
     program.greet();
@@ -208,14 +208,14 @@ describe('events', () => {
   });
 });
 
-describe('who this browser is', () => {
-  test('is said by the greeting', async () => {
+describe('the user of this browser', () => {
+  test('is named by the greeting', async () => {
     await connected({ role: 'observe', greeting: { user: 'bert' } });
     const { role, user } = await state();
     expect([role.value, user.value]).toEqual(['observe', 'bert']);
   });
 
-  test('is said by the token that it kept', async () => {
+  test('is named by the stored token', async () => {
     const browser = openBrowser({ stored: { 'motionrack.token': 'T1' } });
     (await link()).connect();
     const program = new Program(browser.socket);
@@ -227,7 +227,7 @@ describe('who this browser is', () => {
     expect([role.value, user.value]).toEqual(['operate', 'carl']);
   });
 
-  test('a token that is no longer good is forgotten; one that could not be asked about is kept', async () => {
+  test('loses an invalid token, and keeps one that could not be checked', async () => {
     for (const [kind, left] of [
       ['denied', undefined],
       ['machine', 'T1'],

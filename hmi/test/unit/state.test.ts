@@ -22,7 +22,7 @@ describe('the machine', () => {
     expect([machineState.value, axes.value, holder.value, inControl.value]).toEqual(['disabled', [], '', false]);
   });
 
-  test('has states with blanks, however they are written', async () => {
+  test('shows states with blanks, in any spelling', async () => {
     openBrowser();
     expect((await state()).stateName('error_stop')).toBe('error stop');
   });
@@ -51,7 +51,7 @@ describe('the machine', () => {
 });
 
 describe('control', () => {
-  test('is this tab’s only where its own session holds it', async () => {
+  test('belongs to this tab only if its own session holds it', async () => {
     const { program } = await connected({ machine: { control: { holder: 'anna', holder_session: 'this tab' } } });
     const { inControl } = await state();
     expect(inControl.value).toBe(true);
@@ -59,7 +59,7 @@ describe('control', () => {
     expect(inControl.value).toBe(false);
   });
 
-  test('is not this tab’s where a program gives no sessions', async () => {
+  test('does not belong to this tab if the program reports no sessions', async () => {
     await connected({ greeting: { session: undefined }, machine: { control: { holder: 'anna' } } });
     expect((await state()).inControl.value).toBe(false);
   });
@@ -95,20 +95,20 @@ describe('alarms', () => {
     [true, true, 'active, acknowledged', 'attention'],
     [false, false, 'returned, unacknowledged', 'attention'],
     [false, true, 'over', 'calm'],
-  ])('active %s and acknowledged %s is called: %s', (active, acknowledged, word, tone) => {
+  ])('show active %s and acknowledged %s as: %s', (active, acknowledged, word, tone) => {
     expect(alarmState(alarm({ active, acknowledged }))).toEqual({ word, tone });
   });
 });
 
-describe('the age of what is shown', () => {
-  test('is endless before the first picture', async () => {
+describe('the age of the status', () => {
+  test('is infinite before the first status message', async () => {
     openBrowser();
     const { age, ageText, stale } = await state();
     await after(1000);
     expect([age.value, stale.value, ageText(age.value)]).toEqual([Infinity, true, '']);
   });
 
-  test('makes it stale from 500 ms on, and a new picture makes it fresh', async () => {
+  test('marks it as stale from 500 ms on, until a new status message', async () => {
     const { program } = await connected();
     const { stale } = await state();
     program.show();
@@ -120,7 +120,7 @@ describe('the age of what is shown', () => {
     expect(stale.value).toBe(false);
   });
 
-  test('makes it stale at once where the connection is lost', async () => {
+  test('marks it as stale at once if the connection is lost', async () => {
     const { browser } = await connected();
     browser.socket.close();
     expect((await state()).stale.value).toBe(true);

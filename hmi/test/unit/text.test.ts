@@ -10,7 +10,7 @@ const stored = (browser: Browser): { stored: Record<string, string> } => ({
 });
 
 describe('the program in the panel', () => {
-  test('is kept over a reload, with its name', async () => {
+  test('survives a reload, with its name', async () => {
     const browser = openBrowser();
     const { program, programName } = await text();
     expect([programName.value, program.value]).toEqual(['program.ngc', '']);
@@ -21,7 +21,7 @@ describe('the program in the panel', () => {
     expect([again.programName.value, again.program.value]).toEqual(['part.ngc', 'G0 X1']);
   });
 
-  test('that is too long for the browser’s store is not kept half, nor is the one before it', async () => {
+  test('is not stored in part, nor is the previous one kept, if it exceeds the browser’s store', async () => {
     const browser = openBrowser();
     const { program } = await text();
     program.value = 'G0 X1';
@@ -30,7 +30,7 @@ describe('the program in the panel', () => {
     expect(program.value).toHaveLength(2_000_001);
   });
 
-  test('stays in the panel where the browser’s store is full', async () => {
+  test('stays in the panel if the browser’s store is full', async () => {
     openBrowser();
     const { program } = await text();
     localStorage.setItem = () => {
@@ -45,7 +45,7 @@ describe('the program that runs', () => {
   const runs = { ...status().program, name: 'other.ngc', runs: true };
   const answer = { name: 'other.ngc', text: 'G1 X5' };
 
-  test('is asked for, whichever tab began it, and forgotten when it ends', async () => {
+  test('is requested, whichever tab started it, and discarded when it ends', async () => {
     const { program } = await connected();
     program.answers.program = answer;
     const { running } = await text();
@@ -76,8 +76,8 @@ const send = async (mdi: Awaited<ReturnType<typeof lines>>, line: string): Promi
   await mdi.send();
 };
 
-describe('a line by hand', () => {
-  test('is sent without blanks around it, and leaves an empty field', async () => {
+describe('an MDI line', () => {
+  test('is sent without surrounding blanks, and leaves an empty field', async () => {
     const { mdi, program } = await opened();
     program.answers.mdi = {};
     await send(mdi, '  G0 X1 ');
@@ -86,7 +86,7 @@ describe('a line by hand', () => {
     expect(mdi.log.value).toEqual([{ text: 'G0 X1', answer: 'ok', good: true }]);
   });
 
-  test('waits for its answer, which comes to its own line', async () => {
+  test('waits for its answer, which is shown at its own line', async () => {
     const { mdi, program } = await opened();
     const [first, second] = ['G0 X1', 'G0 X2'].map((line) => send(mdi, line));
     expect(mdi.log.value.map((one) => one.answer)).toEqual(['…', '…']);
@@ -99,7 +99,7 @@ describe('a line by hand', () => {
     expect(mdi.log.value[0]).toEqual({ text: 'G0 X1', answer: 'X is at its limit.', good: false });
   });
 
-  test('that is empty is not sent', async () => {
+  test('is not sent if it is empty', async () => {
     const { mdi, program } = await opened();
     await send(mdi, '   ');
     expect([program.asked('mdi'), mdi.log.value]).toEqual([[], []]);
@@ -107,7 +107,7 @@ describe('a line by hand', () => {
 });
 
 describe('the history of lines', () => {
-  test('comes back by walking up, and goes away by walking down', async () => {
+  test('is recalled by Up and left by Down', async () => {
     const { mdi, program } = await opened();
     program.answers.mdi = {};
     for (const line of ['one', 'two', 'three']) await send(mdi, line);
@@ -115,7 +115,7 @@ describe('the history of lines', () => {
     expect(seen).toEqual(['three', 'two', 'one', 'one', 'two', 'three', '', '']);
   });
 
-  test('has a line that was sent again once, as the newest', async () => {
+  test('has a repeated line once, as the newest', async () => {
     const { mdi, program } = await opened();
     program.answers.mdi = {};
     for (const line of ['one', 'two', 'one']) await send(mdi, line);
@@ -123,7 +123,7 @@ describe('the history of lines', () => {
     expect(seen).toEqual(['one', 'two', 'two']);
   });
 
-  test('is kept over a reload; of more than 100 lines the newest', async () => {
+  test('survives a reload, with the newest 100 lines', async () => {
     const { browser, mdi, program } = await opened();
     program.answers.mdi = {};
     for (let i = 1; i <= 101; ++i) await send(mdi, `G0 X${i}`);
@@ -136,7 +136,7 @@ describe('the history of lines', () => {
     expect(again.draft.value).toBe('G0 X2');
   });
 
-  test('is walked from its newest line again after one was sent', async () => {
+  test('begins at its newest line again after a line was sent', async () => {
     const { mdi, program } = await opened();
     program.answers.mdi = {};
     for (const line of ['one', 'two', 'three']) await send(mdi, line);
@@ -148,7 +148,7 @@ describe('the history of lines', () => {
     expect(mdi.draft.value).toBe('three');
   });
 
-  test('that is empty has nothing to walk to', async () => {
+  test('recalls nothing if it is empty', async () => {
     const { mdi } = await opened();
     mdi.walk(1);
     expect(mdi.draft.value).toBe('');

@@ -19,7 +19,7 @@ describe('the view', () => {
     ['#/cards/left/right', 'cards', 'left/right'],
     ['#/nonsense', 'operate', ''],
     ['#/cards/100%', 'cards', '100%'],
-  ])('of the address "%s" is %s "%s"', async (hash, name, detail) => {
+  ])('shows for the address "%s" the view %s "%s"', async (hash, name, detail) => {
     const [, { view, detail: of }] = await opened({ hash });
     expect([view.value, of.value]).toEqual([name, detail]);
   });
@@ -30,7 +30,7 @@ describe('the view', () => {
     expect(view.value).toBe('events');
   });
 
-  test('has an address that opens it again', async () => {
+  test('has an address that reopens it', async () => {
     const [browser, { address, detail, view }] = await opened();
     expect(address('scope')).toBe('#/scope');
     for (const card of ['mcx', 'grating bus / left', 'a%20b', '100%']) {
@@ -41,7 +41,7 @@ describe('the view', () => {
 });
 
 describe('the theme', () => {
-  test('is the system’s, and follows it, until one is chosen', async () => {
+  test('follows the system until one is chosen', async () => {
     const [browser, { dark, setTheme }] = await opened({ prefersDark: false });
     expect(dark.value).toBe(false);
     browser.systemDark.turn(true);
@@ -51,7 +51,7 @@ describe('the theme', () => {
     expect(browser.document.documentElement.dataset.theme).toBe('light');
   });
 
-  test('that was chosen is kept', async () => {
+  test('is kept once it was chosen', async () => {
     const [browser, { setTheme }] = await opened({ prefersDark: true });
     setTheme('light');
     const [, { dark }] = await opened({ stored: Object.fromEntries(browser.store), prefersDark: true });
@@ -67,7 +67,7 @@ test('large numbers are kept', async () => {
   expect(again.largeNumbers.value).toBe(true);
 });
 
-test('a page that becomes narrow is a phone’s, and the other way round', async () => {
+test('a narrow page gets the layout of a phone, and a wide one that of a desktop', async () => {
   const [browser, { narrow }] = await opened({ narrow: true });
   expect(narrow.value).toBe(true);
   browser.phone.turn(false);

@@ -12,7 +12,7 @@ const register = (...fields: [name: string, low: number, bits: number][]): Regis
   fields: fields.map(([name, low, bits]) => ({ name, low, bits, meaning: name })),
 });
 
-test('the fields of a word come with their bits, highest first', () => {
+test('the fields of a word are listed with their bits, highest first', () => {
   const values = fieldValues(register(['X_DRV', 0, 1], ['MODE', 4, 4], ['BUSY', 15, 1]), 0x8095);
   expect(values.map(({ field, bits, value }) => [field.name, bits, value])).toEqual([
     ['BUSY', '15', 1],
@@ -44,13 +44,13 @@ test.each([
   ['0FFH', 255],
   ["'G'", 71],
   ['0', 0],
-])('%s is typed for the word %d', (text, word) => expect(typedWord(text, 8)).toBe(word));
+])('%s is read as the word %d', (text, word) => expect(typedWord(text, 8)).toBe(word));
 
-test.each(['', 'G', '1F', '-1', '1.5', '0x', 'h', "''", "'AB'", '12 34'])('"%s" is no word', (text) =>
+test.each(['', 'G', '1F', '-1', '1.5', '0x', 'h', "''", "'AB'", '12 34'])('"%s" is not a word', (text) =>
   expect(typedWord(text, 16)).toBeNull(),
 );
 
-test('a word that needs more bits than there are is refused', () => {
+test('a word of more bits than the register is refused', () => {
   expect(typedWord('255', 8)).toBe(255);
   expect(typedWord('256', 8)).toBeNull();
   expect(typedWord('FFFFFFFFh', 32)).toBe(0xffffffff);
