@@ -41,7 +41,7 @@ class ControlLease {
     Result<void> take(std::string_view user, std::string_view session, bool force, bool machine_stands);
     /// Refused: the session does not hold it.
     Result<void> release(std::string_view session);
-    /// Keep-alive. Refused: the session does not hold it.
+    /// Renews the control lease. Refused if the session does not hold it.
     Result<void> keep(std::string_view session) { return check(session); }
     /// STOP by this user, in this session if there is one. Ends the control of any other session, whose commands are
     /// refused until it takes control again. Returns true if control was ended.

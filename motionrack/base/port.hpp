@@ -32,7 +32,7 @@ class Interrupt {
     /// Waits until the line is active or `timeout` has passed (`never`: without limit); returns true if the line is
     /// active.
     virtual bool wait(Duration timeout) = 0;
-    /// Lets `duration` pass, independent of the line.
+    /// Waits for `duration`, independent of the line.
     virtual void pass(Duration duration) = 0;
     /// The host's clock.
     virtual Instant now() const = 0;

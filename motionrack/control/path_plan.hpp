@@ -54,7 +54,7 @@ class PathPlan {
     virtual bool waits(const MoveQueue& queue, const PathOutlook& outlook) = 0;
     /// Returns the next planned move; false if there is none. It may stand for several moves of the queue.
     virtual bool pull(const MoveQueue& queue, const PathOutlook& outlook, PlannedMove& planned) = 0;
-    /// Returns true if the path may go on although no planned move is ready.
+    /// Returns true if motion may continue although no planned move is ready.
     virtual bool may_go_on(const PathOutlook& outlook) const = 0;
 
     /// Begins to count submitted moves: a new path of the axes.

@@ -9,9 +9,9 @@
 //
 // Long moves are submitted in slices of about 0.1 s, so that an override takes effect soon. A rapid that certainly goes
 // from standstill to standstill is submitted as a whole, so that the card may drive it as one S-curve; a lower override
-// makes it stop on its path and go on. Point-to-point axes get whole moves, and an override applies from the next one
-// on. With each submitted move the known path ends at standstill: if the sender falls silent, the machine stops at the
-// end of the last line.
+// makes it stop on its path and continue. Point-to-point axes get whole moves, and an override applies from the next
+// one on. With each submitted move the known path ends at standstill: if the sender falls silent, the machine stops at
+// the end of the last line.
 //
 // A plan with limited jerk holds, resumes and overrides along its own trajectory. The axes then decelerate on their own
 // only when the machine stops them.
@@ -92,7 +92,7 @@ class StreamExecutor {
     /// returns idle.
     void stop();
     /// Sets the feed override and the rapid override, clamped to 0.01 .. 2 and 0.01 .. 1. A whole rapid that is faster
-    /// stops on its path, and goes on by itself; a slower one ends as it was submitted.
+    /// stops on its path and continues by itself; a slower one ends as it was submitted.
     void set_overrides(double feed, double rapid);
     /// Enables single block: a pause after each line.
     void set_single_block(bool on) { single_block_ = on; }
@@ -140,7 +140,7 @@ class StreamExecutor {
     void on_move(std::function<void(const Move& move, const Point& start)> call) { queue_.on_move(std::move(call)); }
 
   private:
-    /// replan: a standstill on the path after which it goes on by itself, with another override.
+    /// replan: standstill on the path, then motion continues by itself with another override.
     enum class StopRequest : std::uint8_t { none, replan, hold, stop };
 
     Result<void> fill_plan();

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Condition:
-    """One report of a card or part, as mr_conditions tells it in C."""
+    """One report of a card or part, as mr_conditions returns it in C."""
 
     number: int  #: begins with 1; a gap shows that older ones were dropped
     seconds: float  #: virtual time at which it happened

@@ -21,7 +21,7 @@ Progress = Callable[[float, int, int], None]
 class Rack:
     """A rack of cards. Its time is virtual: it passes only in the calls that say so and in accesses of a card's bus.
 
-    One thread at a time; the others are Refused. Python's other threads go on while a rack runs. The same calls give
+    One thread at a time; the others are Refused. Python's other threads continue while a rack runs. The same calls give
     the same event trace, bit for bit. As a context manager it is closed at the end of the block.
     """
 

@@ -47,7 +47,7 @@ std::string round_corner(ContourSegment& before, ContourSegment& after, ContourS
     const double sine = cross(plain_before.direction_out, plain_after.direction_in);
     if (std::fabs(sine) < no_corner)
         return fmt::format(
-            "the contour has no corner for A or C at the end of line {}: it goes on in the same direction",
+            "the contour has no corner for A or C at the end of line {}: it continues in the same direction",
             before.line);
     const double side = sine > 0 ? before.corner : -before.corner;
     CutterPath left = path_of(before, side, fits_before), right = path_of(after, side, fits_after);

@@ -52,12 +52,12 @@ extern "C" {
  * own clock. A real card: uio:PATH, memory:PATH or port:PATH, followed by ,offset=N ,stride=N ,map=N ,interrupt=PATH
  * ,gap_ns=N as needed. NULL: another card of the bus that was opened last; where none is open, the place that the
  * environment variable MOTIONRACK_RACK names. Waits until the card is Ready, at most 1 s, switches its events off and
- * clears its reset mark (C4, W, V); nothing is started, and a move goes on. Refused if the card is open already, if a
+ * clears its reset mark (C4, W, V); nothing is started, and a move continues. Refused if the card is open already, if a
  * program of motionrack has the real bus open, or if no card answers. Returns the card's handle, 1 or greater, or -1.
  */
 DATABOARD4002_API int databoard4002_open(const char* place, int number);
 
-/* Closes a card; the last card of a bus also closes the bus. A move goes on to its target: stop it first. The same
+/* Closes a card; the last card of a bus also closes the bus. A move continues to its target: stop it first. The same
  * holds for the end of the program. */
 DATABOARD4002_API int databoard4002_close(int card);
 

@@ -15,7 +15,7 @@ class EdgeGenerator {
   public:
     using Listeners = std::array<sim::EdgeListener*, MechanicsFaces::face_count>;
 
-    /// `last`: instant of the last delivered edge, part of the axis' state.
+    /// `last`: instant of the last delivered edge; part of the axis' state, which must outlive this.
     explicit EdgeGenerator(Instant& last) : last_(last) {}
 
     /// Delivers the first `size` edges of `batch` as rotor edges; the count after the first is `first`.

@@ -18,7 +18,7 @@ class MechanicsFaces {
     };
     using Watches = std::array<std::array<Watch, sim::PositionFunction::max_listeners>, face_count>;
 
-    /// `watches`: part of the axis' state.
+    /// `watches`: part of the axis' state, which must outlive this.
     MechanicsFaces(const PulseInput& input, const Encoder& encoder, Watches& watches)
         : input_(input), encoder_(encoder), watches_(watches) {}
 

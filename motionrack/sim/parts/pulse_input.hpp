@@ -11,7 +11,7 @@ namespace motionrack::parts {
 
 class PulseInput {
   public:
-    /// `watched`: watched range of the pulses; it and `state` are parts of the axis' state.
+    /// `watched`: watched range of the pulses; it and `state` are parts of the axis' state, which must outlive this.
     PulseInput(const Stepper& motor, const StepperState& state, Range& watched)
         : motor_(motor), state_(state), watched_(watched) {}
 

@@ -24,7 +24,7 @@ struct RotorStrainState {
 
 class RotorStrain {
   public:
-    /// The states are parts of the axis' state.
+    /// The states are parts of the axis' state, which must outlive this.
     RotorStrain(RotorStrainState& state, Stepper& motor, const StepperState& motor_state)
         : state_(state), motor_(motor), motor_state_(motor_state) {}
 

@@ -37,7 +37,7 @@ class CommandLibrary final : public FunctionLibrary {
     Result<CallAnswer> call(std::size_t function, std::span<const std::int64_t> values) override;
     /// True while the rate at the output is not 0, or the card does not report it.
     bool moving() override;
-    /// Q.
+    /// Ends the move (command Q).
     void stop_now() override;
 
   private:

@@ -8,7 +8,7 @@ namespace motionrack::databoard4002 {
 
 class Watchdog {
   public:
-    /// The references are parts of the card's state.
+    /// The references are parts of the card's state, which must outlive this.
     Watchdog(Instant& due, FirmwareState& firmware) : due_(due), firmware_(firmware) {}
 
     bool hung() const { return firmware_ == FirmwareState::hung; }

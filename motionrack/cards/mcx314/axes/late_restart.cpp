@@ -1,4 +1,4 @@
-// A host that is late: the chip stands in the middle of a path, and goes on from there.
+// A late host: the chip stops in the middle of a path, and motion continues from there.
 //
 //   planned  ----\        The segment brakes from a speed that the chip has not reached. At its V from the start on it
 //                 \       would creep to its end: it accelerates first, as far as braking leaves room.

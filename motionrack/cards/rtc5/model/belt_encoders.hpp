@@ -17,7 +17,7 @@ inline std::int32_t wrapped(std::int64_t v) {
 
 class BeltEncoders {
   public:
-    /// `state` and `tick`: parts of the card's state.
+    /// `state` and `tick`: parts of the card's state, which must outlive this.
     BeltEncoders(EncodersState& state, const std::int64_t& tick, const Connections& connections, BlockBuffers& buffers)
         : state_(state), tick_(tick), connections_(connections), buffers_(buffers) {}
 

@@ -12,7 +12,7 @@ namespace motionrack::rtc5 {
 
 class ExternalStarts {
   public:
-    /// `starts`, `control_mode` and `tick`: parts of the card's state.
+    /// `starts`, `control_mode` and `tick`: parts of the card's state, which must outlive this.
     ExternalStarts(Starts& starts, const std::int64_t& control_mode, const std::int64_t& tick, BeltEncoders& encoders,
                    ListExecution& list, StatusFlags& flags, const Connections& connections, BlockBuffers& buffers)
         : starts_(starts),

@@ -14,7 +14,7 @@ namespace motionrack::rtc5 {
 
 class FlyCorrection {
   public:
-    /// `state`, `z` (before the correction) and `tick`: parts of the card's state.
+    /// `state`, `z` (before the correction) and `tick`: parts of the card's state, which must outlive this.
     FlyCorrection(FlyState& state, double& z, const std::int64_t& tick, BeltEncoders& encoders, McBspReceiver& mcbsp,
                   StatusFlags& flags, BlockBuffers& buffers)
         : state_(state), z_(z), tick_(tick), encoders_(encoders), mcbsp_(mcbsp), flags_(flags), buffers_(buffers) {}
@@ -54,7 +54,7 @@ class FlyCorrection {
     Point leave(Point p, const Transform& global);
     /// park_position; `pause`: the correction pauses meanwhile.
     Point park(Point p, const Transform& global, bool pause);
-    /// Goes on after park().
+    /// Continues after park().
     Point end_parking(Point p, const Transform& global);
     Point park_from() const { return state_.park_from; }
 

@@ -10,7 +10,7 @@ namespace motionrack::rtc5 {
 
 class LaserControl {
   public:
-    /// `laser` and `tick`: parts of the card's state.
+    /// `laser` and `tick`: parts of the card's state, which must outlive this.
     LaserControl(Laser& laser, const std::int64_t& tick, const Connections& connections, BlockBuffers& buffers)
         : laser_(laser), tick_(tick), connections_(connections), buffers_(buffers) {}
 

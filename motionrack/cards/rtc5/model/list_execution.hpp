@@ -1,4 +1,4 @@
-// The execution of lists: where it stands, its calls, its starts and ends.
+// The execution of lists: position, calls, starts and ends.
 #pragma once
 
 #include <cstdint>
@@ -30,16 +30,16 @@ class ListExecution {
     void begin(std::int64_t position, std::uint32_t cause);
     /// Ends the running list; the other list may follow. `written`: by set_end_of_list, not by an empty position.
     void end(bool written, std::int64_t tick);
-    /// Goes on at a position and returns later. A call to an undefined target (-1) is a list_nop. Returns false if the
-    /// command takes a tick.
+    /// Continues at a position and returns later. A call to an undefined target (-1) is a list_nop. Returns false if
+    /// the command takes a tick.
     bool call(std::int64_t position, std::int64_t tick);
     /// Start position of a subroutine; -1: undefined.
     std::int64_t subroutine(std::int64_t index) const;
     /// list_return. Returns false if the command takes a tick.
     bool come_back();
-    /// Returns true if the laser was on, which goes off with the list.
+    /// Returns true if the laser was on; it goes off with the list.
     bool pause();
-    /// Goes on after pause(). Returns true if the laser goes on again.
+    /// Continues after pause(). Returns true if the laser is switched on again.
     bool restart();
     /// Ends all lists and what waits for their end.
     void stop();

@@ -10,7 +10,7 @@ namespace motionrack::rtc5 {
 
 class ListMemory {
   public:
-    /// `lists` and `memory_hash`: parts of the card's state.
+    /// `lists` and `memory_hash`: parts of the card's state, which must outlive this.
     ListMemory(Lists& lists, std::uint64_t& memory_hash, const Settings& settings)
         : lists_(lists),
           memory_hash_(memory_hash),

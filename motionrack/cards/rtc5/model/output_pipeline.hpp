@@ -13,7 +13,8 @@ namespace motionrack::rtc5 {
 
 class OutputPipeline {
   public:
-    /// `output` (of the last tick), `p` (before the correction) and `tick`: parts of the card's state.
+    /// `output` (of the last tick), `p` (before the correction) and `tick`: parts of the card's state, which must
+    /// outlive this.
     OutputPipeline(HeadOutput& output, const Point& p, const std::int64_t& tick, const WobbelMotion& wobbel,
                    FlyCorrection& fly, HeadTransforms& heads, SignalRecorder& recorder, BlockBuffers& buffers)
         : output_(output),

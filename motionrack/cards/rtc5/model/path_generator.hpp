@@ -12,7 +12,7 @@ namespace motionrack::rtc5 {
 
 class PathGenerator {
   public:
-    /// `settings`, `activity` and `p` (the present position): parts of the card's state.
+    /// `settings`, `activity` and `p` (the present position): parts of the card's state, which must outlive this.
     PathGenerator(PathSettings& settings, Activity& activity, Point& p, InputWait& wait, WobbelMotion& wobbel,
                   BlockBuffers& buffers)
         : settings_(settings), activity_(activity), p_(p), wait_(wait), wobbel_(wobbel), buffers_(buffers) {}

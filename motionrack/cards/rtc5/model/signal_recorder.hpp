@@ -12,7 +12,8 @@ namespace motionrack::rtc5 {
 
 class SignalRecorder {
   public:
-    /// `recording` and `sender`: parts of the card's state, which is `card`; the signals are values of it.
+    /// `recording` and `sender`: parts of the card's state `card`, which must outlive this; the signals are values of
+    /// it.
     SignalRecorder(Recording& recording, Sender& sender, const State& card, const HeadTransforms& heads)
         : recording_(recording), sender_(sender), card_(card), heads_(heads) {}
 

@@ -10,7 +10,7 @@ namespace motionrack::rtc5 {
 
 class StatusFlags {
   public:
-    /// Both are parts of the card's state.
+    /// Both are parts of the card's state, which must outlive this.
     StatusFlags(FlagsState& flags, FlyLimits& limits) : flags_(flags), limits_(limits) {}
 
     /// Sets bits of the marking info; keeps the tick of those that were clear.

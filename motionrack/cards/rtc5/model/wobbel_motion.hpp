@@ -14,7 +14,7 @@ namespace motionrack::rtc5 {
 
 class WobbelMotion {
   public:
-    /// All three are parts of the card's state.
+    /// All three are parts of the card's state, which must outlive this.
     WobbelMotion(Wobbel& wobbel, const Lists& lists, const Activity& activity)
         : wobbel_(wobbel), lists_(lists), activity_(activity) {}
 
