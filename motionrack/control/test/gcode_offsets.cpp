@@ -207,8 +207,8 @@ TEST(GcodeWorkSystems, RotateArcsAndCyclesOfTheirPlane) {
     EXPECT_EQ(moves[1].turns, -1);
     expect_near(last_end("G10 L2 P1 R90\nF9 G98 G81 X3 Y1 Z-1 R2"), -1, 3, 2);
     expect_near(last_end("G10 L2 P1 R90\nF9 G91 G98 G81 X3 Y1 Z-1 R2 L3"), -3, 9, 2);
-    EXPECT_THAT(problem_with_tools("G10 L2 P1 R5\nF9\nG18 G2 X5 Z0 I1 K0"), HasSubstr("turned by 5 degrees"));
-    EXPECT_THAT(problem_with_tools("G10 L2 P1 R5\nF9\nG19 G81 X5 Z0 R1"), HasSubstr("turned by 5 degrees"));
+    EXPECT_THAT(problem_with_tools("G10 L2 P1 R5\nF9\nG18 G2 X5 Z0 I1 K0"), HasSubstr("rotated by 5 degrees"));
+    EXPECT_THAT(problem_with_tools("G10 L2 P1 R5\nF9\nG19 G81 X5 Z0 R1"), HasSubstr("rotated by 5 degrees"));
     EXPECT_THAT(problem_with_tools("G10 L2 P1 R90\nX10001"), HasSubstr("2:1: X10001 leads to Y"));
 }
 

@@ -128,13 +128,13 @@ TEST_F(AtomicFile, IsRefusedAsAnOutputWhereItIsReadOrALinkOrAnotherOutput) {
         return may ? std::string() : may.error().message;
     };
     EXPECT_EQ(refused({at("in"), ""}, {at("out"), "", "-", "-", "/dev/null", "/dev/null"}), "");
-    EXPECT_THAT(refused({at("in")}, {at("./in")}), HasSubstr("is read"));
-    EXPECT_THAT(refused({at("in")}, {at("same")}), HasSubstr("is read"));
+    EXPECT_THAT(refused({at("in")}, {at("./in")}), HasSubstr("is an input"));
+    EXPECT_THAT(refused({at("in")}, {at("same")}), HasSubstr("is an input"));
     EXPECT_THAT(refused({}, {at("link")}), HasSubstr("symbolic link"));
-    EXPECT_THAT(refused({}, {at("out"), at("../") + folder_.filename().string() + "/out"}), HasSubstr("Two things"));
-    EXPECT_THAT(refused({}, {at("out"), at("out.incomplete")}), HasSubstr("Two things"));
+    EXPECT_THAT(refused({}, {at("out"), at("../") + folder_.filename().string() + "/out"}), HasSubstr("Two outputs"));
+    EXPECT_THAT(refused({}, {at("out"), at("out.incomplete")}), HasSubstr("Two outputs"));
     put(at("out.incomplete"), "in");
-    EXPECT_THAT(refused({at("out.incomplete")}, {at("out")}), HasSubstr("which is read"));
+    EXPECT_THAT(refused({at("out.incomplete")}, {at("out")}), HasSubstr("which is an input"));
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ const std::vector<BadFile>& bad_files() {
         {rack_with("encoder_counts_per_rev = 1001\n"), {6, 26}, {"1001", "multiple of 4"}},
         {rack_with("encoder_counts_per_rev = 1000000\n"), {6, 26}, {"20000000 counts/s", "8000000"}},
         {rack_with("[axis.X.motor]\nstart_stop_hz = 300000\n"), {7, 17}, {"300000", "200000", "pull_out_hz"}},
-        {rack_with("[axis.X.switches]\nhome_mm = 301\n"), {7, 11}, {"home_mm", "301", "0 and 300 mm"}},
+        {rack_with("[axis.X.switches]\nhome_mm = 301\n"), {7, 11}, {"home_mm", "301", "0 to 300 mm"}},
         {rack_with("[axis.X.switches]\nlimit_minus_mm = 5\nlimit_plus_mm = 4\n"),
          {7, 18},
          {"leave no travel", "5", "4"}},

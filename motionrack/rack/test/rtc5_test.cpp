@@ -91,7 +91,7 @@ TEST(Rtc5InARack, AWordOnItsMcbspIsANumberOf32Bits) {
     EXPECT_EQ(bench.peek("MCBSP1"), 70);
     EXPECT_THAT(bench.session->set_wire("c1.mcbsp", 2'147'483'648.0).error().message,
                 HasSubstr("-2147483648 to 2147483647"));
-    EXPECT_THAT(bench.session->set_wire("c1.mcbsp", 0.5).error().message, HasSubstr("whole numbers"));
+    EXPECT_THAT(bench.session->set_wire("c1.mcbsp", 0.5).error().message, HasSubstr("must be whole"));
     EXPECT_THAT(bench.session->set_wire("c1.start_n", 70).error().message, HasSubstr("digital"));
 }
 
