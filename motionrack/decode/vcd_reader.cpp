@@ -107,10 +107,10 @@ Result<void> VcdCapture::read_head() {
                             keyword.substr(0, 40)),
                 location);
         if (keyword == "$comment" || keyword == "$date" || keyword == "$version") {
-            MOTIONRACK_CHECK(skip("its head"));
+            MOTIONRACK_CHECK(skip("its header"));
             continue;
         }
-        MOTIONRACK_CHECK(words_until_end(words, "its head"));
+        MOTIONRACK_CHECK(words_until_end(words, "its header"));
         if (keyword == "$enddefinitions") {
             if (tick_s_ == 0)
                 return refuse("The file has no $timescale, so its times have no unit. Nothing was decoded.", location);
@@ -122,7 +122,7 @@ Result<void> VcdCapture::read_head() {
         if (keyword == "$upscope" && !scopes_.empty()) scopes_.pop_back();
         if (keyword == "$var") MOTIONRACK_CHECK(declare(words));
     }
-    return tl::unexpected(ends_in("its head"));
+    return tl::unexpected(ends_in("its header"));
 }
 
 Result<void> VcdCapture::set_timescale(const std::vector<std::string>& words) {

@@ -115,7 +115,7 @@ class ConveyorReader {
         if (peak_velocity > track_.max_velocity())
             reader_.refuse(
                 with_unit("velocity_{u}_s", track_.unit()),
-                fmt::format("it goes at {0} {1}/s, but at more than {2:.6g} {1}/s its encoder would make more than "
+                fmt::format("its velocity is {0} {1}/s, but above {2:.6g} {1}/s its encoder would make more than "
                             "{3:.0f} counts a second, or "
                             "more than {4:.0f} parts a second would come.",
                             number_text(peak_velocity), track_.unit(), track_.max_velocity(), max_track_counts,

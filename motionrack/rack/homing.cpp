@@ -75,7 +75,7 @@ class Homing {
         latch.settle();
         if (!latch.latched() || latch.is_ordered()) return;
         if (out_.ended || out_.ended.error().kind != ErrorKind::stopped) return;
-        out_.ended = fail(ErrorKind::machine, fmt::format("{} The search for home was stopped. {} {}", latch.sentence(),
+        out_.ended = fail(ErrorKind::machine, fmt::format("{} Homing was stopped. {} {}", latch.sentence(),
                                                           positions_text(), latch.advice()));
     }
 
@@ -161,7 +161,7 @@ class Homing {
         for (Work& work : works_)
             if (work.running->config.homing.sequence == order) group.push_back(&work);
         if (group.front()->running->card->host().stop_requested()) {
-            out_.ended = fail(ErrorKind::stopped, "The search for home was stopped before it began.");
+            out_.ended = fail(ErrorKind::stopped, "Homing was stopped before it began.");
             return;
         }
         const Instant now = rack_.kernel().now();

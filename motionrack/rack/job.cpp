@@ -271,7 +271,7 @@ HomingOutcome Job::home(const HomingSettings& settings) {
         if (axis.begun && axis.outcome.homed)
             reference_.set(i, axis.counter_position, found[i]);
         else if (axis.begun)
-            reference_.lose(i, "its search for home did not end at home");
+            reference_.lose(i, "its homing did not end at home");
     }
     return out;
 }

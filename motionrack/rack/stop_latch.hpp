@@ -115,7 +115,7 @@ class StopLatch final : public sim::Device {
         std::uint64_t trips = 0;
         std::array<Instant, 2 * control::axis_count> left{};  ///< when each - and + limit switch was last left
         std::int32_t armed = 0, latched = 0, cause = 0;
-        std::uint32_t searching = 0;  ///< bits: axes in a search for home
+        std::uint32_t searching = 0;  ///< bits: axes that are being homed
         std::int32_t input = -1;      ///< input that set the latch; -1: a command
         std::int32_t behind = 0;      ///< direction of a limit switch opposite to the motion of its axis
         std::int32_t heeds_door = 1, by_door = 0;

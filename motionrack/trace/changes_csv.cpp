@@ -64,7 +64,7 @@ Result<std::unique_ptr<ChangeSource>> open_csv_changes(const std::string& path, 
     MOTIONRACK_TRY(CsvRows rows, CsvRows::open(path));
     if (rows.head() != std::vector<std::string>{"time_s", "signal", "value"})
         return fail(ErrorKind::invalid_input,
-                    "The file is not a table of changes: its head is not time_s,signal,value.", {1, 0}, path);
+                    "The file is not a table of changes: its header is not time_s,signal,value.", {1, 0}, path);
     return std::make_unique<CsvChanges>(std::move(rows), path, names);
 }
 

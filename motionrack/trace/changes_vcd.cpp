@@ -60,7 +60,7 @@ bool VcdChanges::word() {
 Result<void> VcdChanges::skip_to_end() {
     while (word())
         if (word_ == "$end") return {};
-    return refuse("The file ends in its head.");
+    return refuse("The file ends in its header.");
 }
 
 /// "100ps", or "100 ps".
@@ -102,7 +102,7 @@ Result<void> VcdChanges::read_head() {
     while (word()) {
         if (word_ == "$enddefinitions") {
             MOTIONRACK_CHECK(skip_to_end());
-            return scale_ps_ > 0 ? Result<void>() : Result<void>(refuse("The file's head has no timescale."));
+            return scale_ps_ > 0 ? Result<void>() : Result<void>(refuse("The file's header has no timescale."));
         }
         if (word_ == "$timescale") {
             MOTIONRACK_CHECK(timescale());
@@ -123,11 +123,11 @@ Result<void> VcdChanges::read_head() {
         } else if (word_[0] == '$') {
             MOTIONRACK_CHECK(skip_to_end());
         } else {
-            return refuse(fmt::format("'{}' stands where the head of a VCD file should.", word_.substr(0, 40)));
+            return refuse(fmt::format("'{}' is where the header of a VCD file must be.", word_.substr(0, 40)));
         }
     }
     MOTIONRACK_CHECK(bytes_.check());
-    return refuse("The file ends in its head.");
+    return refuse("The file ends in its header.");
 }
 
 Result<void> VcdChanges::time() {

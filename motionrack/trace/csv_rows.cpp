@@ -32,7 +32,7 @@ Result<bool> CsvRows::next(std::vector<std::string>& fields) {
         MOTIONRACK_TRY(any, read(fields));
     } while (any && is_blank(fields));
     if (any && fields.size() != head_.size()) {
-        if (!cut_) return refuse(fmt::format("The row has {} fields, the head {}.", fields.size(), head_.size()));
+        if (!cut_) return refuse(fmt::format("The row has {} fields, the header {}.", fields.size(), head_.size()));
         return false;
     }
     return any;

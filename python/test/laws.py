@@ -1,6 +1,6 @@
 """The laws of sessions around every rack and machine that a test opens: python -m laws TESTS... runs these tests.
 
-Counters change with pulses, nothing moves after a program or a search for home, nor in an error stop, a program keeps
+Counters change with pulses, nothing moves after a program or homing, nor in an error stop, a program keeps
 the velocity limits, and time is as it was asked for. A breach is an AssertionError in the call that shows it. C
 programs have the same laws in tests/invariants/session_laws.hpp.
 """

@@ -70,7 +70,7 @@ std::string catalogue_page(const std::vector<Group>& groups) {
         "# Faults\n\n<!-- written by `fault_page`, from tests/fault/catalogue.toml -->\n\n{} faults that parts, cards, "
         "wires, the bus, files, the network and the process can have: effect, required stop and its time limit, "
         "message and kept data. `ctest -L fault` runs each of them at two operating points and checks all of it; "
-        "faults of parts, cards and wires in a program, in a search for home and of stages are injected into a served "
+        "faults of parts, cards and wires in a program, during homing and of stages are injected into a served "
         "machine, too, which raises one alarm with these words. Times are of the simulated world, from the fault to "
         "the last change of any position, unless a line says otherwise. {{name}} is a number or a word that the "
         "operating point has.\n\nFaults are injected by `--fault NAME=VALUE@TIME` of `motionrack run`, `home` and "

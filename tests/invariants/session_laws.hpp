@@ -1,5 +1,5 @@
 // Laws of a session that a program outside of the rack drives with its own calls: counters change with pulses, nothing
-// moves after a program or a search for home until a new order, limits are kept, and time is monotone. Of C programs:
+// moves after a program or homing until a new order, limits are kept, and time is monotone. Of C programs:
 // c_sessions.cpp; of Python programs: python/test/laws.py.
 #pragma once
 
@@ -33,7 +33,7 @@ class SessionLaws {
     /// The program wrote to a card, forced a wire, moved a part or injected a fault.
     void ordered();
     bool is_ordered() const { return ordered_; }
-    /// A part program or a search for home begins. Call see() before.
+    /// A part program or homing begins. Call see() before.
     void begin_drive();
     /// While it runs.
     void during_drive(const SessionPicture& now);

@@ -136,7 +136,7 @@ function Form({ card, one }: { card: CardInfo; one: FunctionInfo }): JSX.Element
   const working = useSignal(false);
   const set = (name: string, text: string): void =>
     void (typedTexts.value = { ...typedTexts.value, [key]: { ...texts, [name]: text } });
-  const why = working.value ? 'The call before has not ended.' : mayCall(card);
+  const why = working.value ? 'The previous call has not ended.' : mayCall(card);
   const call = async (): Promise<void> => {
     const read = readTexts(one, texts);
     if (why !== '' || read.values === undefined) {

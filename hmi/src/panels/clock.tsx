@@ -49,7 +49,7 @@ export function Clock(): JSX.Element {
         />
         <Button
           icon="step"
-          why={why || (clock?.mode === 'paused' ? '' : 'The clock is stepped while it is paused.')}
+          why={why || (clock?.mode === 'paused' ? '' : 'Pause the clock first.')}
           onClick={stepBy}>
           Step
         </Button>

@@ -18,7 +18,7 @@ std::string loader_error() {
         case ERROR_PATH_NOT_FOUND:
             return "it, or a library that it needs, was not found";
         case ERROR_BAD_EXE_FORMAT:
-            return "it is for programs of another number of bits";
+            return "it is built for another word size (32 or 64 bits)";
         default:
             return fmt::format("Windows refuses it with error {}", code);
     }

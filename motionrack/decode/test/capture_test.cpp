@@ -117,7 +117,7 @@ TEST(VcdCapture, DecodesATruncatedFileToItsLastCompleteValue) {
         EXPECT_EQ(analysis->cut->location.line, 13) << end;
         EXPECT_TRUE(has(analysis->cut->text(), "cut off")) << end;
     }
-    EXPECT_TRUE(has(refusal(vcd_head.substr(0, 60), "a.vcd"), "a.vcd:3:15: The file ends inside its head"));
+    EXPECT_TRUE(has(refusal(vcd_head.substr(0, 60), "a.vcd"), "a.vcd:3:15: The file ends inside its header"));
     EXPECT_TRUE(has(refusal("$comment", "a.vcd"), "cut off. Nothing was decoded."));
 }
 

@@ -75,7 +75,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
     void took_head(error_code error) {
         if (error == http::error::end_of_stream) return close_with_reason();
         if (error == http::error::header_limit || error == http::error::buffer_overflow)
-            return answer(http_error(431, "limit", "The head of the request is longer than 8 KiB. Nothing was done."),
+            return answer(http_error(431, "limit", "The header of the request is longer than 8 KiB. Nothing was done."),
                           false);
         if (is_http(error))
             return answer(

@@ -306,10 +306,10 @@ TEST(MarkingLine, InconsistentSettingsAreReportedWithTheirLocation) {
                 HasSubstr("in the table lens"));
     EXPECT_THAT(refused("[belt.line]\n[wires]\n\"scan.start_n\" = \"line.sensor_n\"\n"), HasSubstr("section parts"));
     EXPECT_THAT(refused("[belt.line]\nvelocity_mm_s = 1000\ncounts_per_mm = 20000\n"),
-                HasSubstr("at more than 500 mm/s its encoder"));
+                HasSubstr("above 500 mm/s its encoder"));
     EXPECT_THAT(
         refused("[belt.line]\nvelocity_mm_s = 1000\n[belt.line.parts]\npart_pitch_mm = 0.002\nlength_mm = 0.001\n"),
-        HasSubstr("at more than 200 mm/s"));
+        HasSubstr("above 200 mm/s"));
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ Result<HomeSpread> repeat_home(Driver& driver, int axis, const HomeSettings& set
         repeats >= 1 && !away.empty() && std::all_of(away.begin(), away.end(), [](std::int64_t p) { return p > 0; });
     if (!fine)
         return fail(ErrorKind::refused,
-                    "repeat_home: it takes at least one repeat and distances from home above 0. Nothing was moved.");
+                    "repeat_home: it needs at least one repeat, and distances from home above 0. Nothing was moved.");
     MOTIONRACK_TRY(const HomeReport first, home(driver, axis, settings, timeout));
     HomeSpread out;
     out.pulses.push_back(0);

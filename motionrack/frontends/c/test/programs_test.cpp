@@ -182,7 +182,7 @@ TEST(CPrograms, AFailedHomingPreventsPrograms) {
     EXPECT_EQ(mr_fault(world, "home.stuck_open", "X"), MR_OK);
     EXPECT_EQ(mr_home(world, "X"), MR_MACHINE);
     run(world, to_15_10, MR_REFUSED);
-    EXPECT_THAT(mr_last_error(), HasSubstr("its search for home did not end at home"));
+    EXPECT_THAT(mr_last_error(), HasSubstr("its homing did not end at home"));
     EXPECT_EQ(mr_fault(world, "home.stuck_open=0", "X"), MR_OK);
     ASSERT_EQ(mr_home(world, "X"), MR_OK) << mr_last_error();
     run(world, to_15_10);
