@@ -47,10 +47,7 @@ export function Clock(): JSX.Element {
           onInput={(text) => (step.value = text)}
           onEnter={stepBy}
         />
-        <Button
-          icon="step"
-          why={why || (clock?.mode === 'paused' ? '' : 'Pause the clock first.')}
-          onClick={stepBy}>
+        <Button icon="step" why={why || (clock?.mode === 'paused' ? '' : 'Pause the clock first.')} onClick={stepBy}>
           Step
         </Button>
         <ActionButton action={actions.estop} icon="power" machine={false}>
