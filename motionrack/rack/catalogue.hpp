@@ -163,7 +163,7 @@ struct CardFault {
     double (*max_of)(const RackCard& card) = nullptr;  ///< replaces max; may be nullptr
 };
 
-/// One type of card, complete. Each is one object, in the file of its card (NAME_card.cpp).
+/// One type of card, complete. Each is one object, in the file of its card (NAME_plugin.cpp or NAME_card.cpp).
 struct CardPlugin {
     CardType type;            ///< what a rack file can say of it
     const CardMap& (*map)();  ///< registers, commands, states and pins
