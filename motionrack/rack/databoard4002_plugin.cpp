@@ -148,6 +148,17 @@ constexpr std::array<CardFault, 5> databoard4002_faults = {{
     {"ref.broken", 0, 1, "", "1: the wire of the reference switch is broken; 0 repairs it"},
 }};
 
+constexpr std::array<StopReaction, 3> databoard4002_stops = {{
+    {"databoard4002", only_emergency_stop, StopCategory::category_0, StopBy::card,
+     "the relay disconnects the amplifier's voltage, at its input ems; the amplifier brakes the axis", milliseconds(1),
+     true},
+    {"databoard4002", stop_bits({StopSource::limit_switch, StopSource::watchdog}), StopCategory::category_0,
+     StopBy::card, "the card ends the move by itself, without a ramp: 0 V", milliseconds(1), true},
+    {"databoard4002", stop_bits({StopSource::stop_command, StopSource::drive_alarm, StopSource::following_error}),
+     StopCategory::category_2, StopBy::drive, "the axis decelerates with its own acceleration and holds its position",
+     stop_slice, true},
+}};
+
 }  // namespace
 
 constinit const CardPlugin databoard4002_plugin = {
@@ -174,6 +185,7 @@ constinit const CardPlugin databoard4002_plugin = {
     .view = databoard4002_view,
     .view_again = databoard4002_view_again,
     .library = databoard4002_library,
+    .stop_reactions = databoard4002_stops,
     .faults = databoard4002_faults};
 
 }  // namespace motionrack::rack

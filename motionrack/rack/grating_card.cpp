@@ -308,6 +308,25 @@ constexpr std::array<CardFault, 5> grating_bus_faults = {{
 constexpr std::array<CardFault, 1> grating_decoder_faults = {
     {{"no_latch", 0, 1, "", "1: the decoder does not latch its counts; 0 repairs it"}}};
 
+/// Clears the outputs without a control loop.
+void clear_analog_outputs(Rack& rack, const StopReaction&) {
+    for (const auto& card : rack.cards()) {
+        auto* found = dynamic_cast<GratingCard*>(card.get());
+        if (found == nullptr) continue;
+        for (int output = 0; output < gb::output_count; ++output)
+            if (std::none_of(rack.stages().begin(), rack.stages().end(), [&](const RunningStage& stage) {
+                    return stage.processor != nullptr && stage.config.card == card->name() &&
+                           stage.config.output == output;
+                }))
+                found->card().put_out(output, 0);
+    }
+}
+
+constexpr std::array<StopReaction, 1> grating_bus_stops = {
+    {{"grating_bus", every_stop, StopCategory::category_0, StopBy::latch,
+      "analog outputs without a loop go to 0 V; frames continue", milliseconds(2), false, clear_analog_outputs,
+      StopOrder::analog_outputs}}};
+
 constexpr std::string_view no_grating_bus_port =
     "A card of the grating bus has no live port: its source names no registers, so those of the virtual one are this "
     "project's own, and no real one has them.";
@@ -325,6 +344,7 @@ constinit const CardPlugin grating_bus_plugin = {
     .map = gb::card_map,
     .make = make_grating_bus,
     .no_live_port = no_grating_bus_port,
+    .stop_reactions = grating_bus_stops,
     .faults = grating_bus_faults};
 
 constinit const CardPlugin grating_decoder_plugin = {

@@ -173,7 +173,7 @@ void clear_ioflex02_outputs(Rack& rack, const StopReaction&) {
 
 constexpr std::array<StopReaction, 1> ioflex02_stops = {
     {{"ioflex02", every_stop, StopCategory::category_0, StopBy::latch, "its outputs go to 0; counting continues",
-      milliseconds(2), false, clear_ioflex02_outputs}}};
+      milliseconds(2), false, clear_ioflex02_outputs, StopOrder::digital_outputs}}};
 
 }  // namespace
 

@@ -1,8 +1,11 @@
 // What a rack file can say of an MCX314, and what the rack can do with one.
 #include <array>
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/general_outputs.hpp>
 #include <motionrack/cards/mcx314/library/library.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/rack/mcx314_card.hpp>
+#include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::rack {
@@ -121,6 +124,31 @@ Result<RegisterView> mcx314_view(const CardBus& bus, bool clearing) {
     return view_mcx314(*bus.registers, clearing);
 }
 
+void clear_general_outputs(Rack& rack, const StopReaction&) {
+    for (const auto& card : rack.cards())
+        if (auto* chip = dynamic_cast<mcx314::Chip*>(card->registers()); chip != nullptr)
+            mcx314::Chip::GeneralOutputs::clear(*chip);
+}
+
+constexpr std::array<StopReaction, 5> mcx314_reactions = {{
+    {"mcx314", only_emergency_stop, StopCategory::category_0, StopBy::card,
+     "the chip ends all pulses at once, at its input emgn", milliseconds(1)},
+    {"mcx314", stop_bits({StopSource::limit_switch}), StopCategory::category_2, StopBy::card,
+     "the chip decelerates the axis moving towards the switch, and with it the path; the drive ends with the current "
+     "segment; at standstill: motion is blocked",
+     milliseconds(1), true},
+    {"mcx314",
+     stop_bits({StopSource::stop_command, StopSource::drive_alarm, StopSource::watchdog, StopSource::following_error}),
+     StopCategory::category_2, StopBy::drive, "all axes decelerate along their path and hold their positions",
+     stop_slice, true},
+    {"mcx314 outputs", only_emergency_stop, StopCategory::category_0, StopBy::latch,
+     "the general outputs OUT0 to OUT7 go low: servo-on and open brakes end", milliseconds(2), false,
+     clear_general_outputs},
+    {"mcx314 outputs", but_emergency_stop, StopCategory::category_2, StopBy::card,
+     "the general outputs keep their levels, because the ramp and holding a position need servo-on and open brakes",
+     Duration{}},
+}};
+
 }  // namespace
 
 constinit const CardPlugin mcx314_plugin = {.type = {.name = "mcx314",
@@ -143,6 +171,7 @@ constinit const CardPlugin mcx314_plugin = {.type = {.name = "mcx314",
                                             .map = mcx314::card_map,
                                             .make = make_mcx314,
                                             .view = mcx314_view,
-                                            .library = mcx314_library};
+                                            .library = mcx314_library,
+                                            .stop_reactions = mcx314_reactions};
 
 }  // namespace motionrack::rack

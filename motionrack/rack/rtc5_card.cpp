@@ -1,5 +1,6 @@
 // The RTC5 in a rack: no bus, no axes; its lines are wires, and programs give it commands.
 #include <algorithm>
+#include <array>
 #include <motionrack/cards/rtc5/map.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/own_pins.hpp>
@@ -153,6 +154,20 @@ std::unique_ptr<Card> make_rtc5(sim::Kernel& kernel, const RackCard& config, sim
     return std::make_unique<Rtc5Card>(kernel, config, log);
 }
 
+/// Ends lists, blocks starts, and closes the laser's gate at this tick.
+void laser_off(Rack& rack, const StopReaction&) {
+    for (const auto& card : rack.cards())
+        if (auto* laser = dynamic_cast<Rtc5Card*>(card.get()); laser != nullptr) {
+            laser->card().engine().set_control_mode(0);
+            laser->card().engine().stop_execution();
+        }
+}
+
+constexpr std::array<StopReaction, 1> rtc5_stops = {
+    {{"rtc5", every_stop, StopCategory::category_0, StopBy::latch,
+      "the laser goes off, lists end, and starts are no longer accepted; the mirrors stay where they are",
+      milliseconds(2), false, laser_off, StopOrder::laser}}};
+
 }  // namespace
 
 constinit const CardPlugin rtc5_plugin = {
@@ -167,7 +182,8 @@ constinit const CardPlugin rtc5_plugin = {
     .make = make_rtc5,
     .no_live_port =
         "An RTC5 has no live port: a real one is driven through its maker's DLL, and no source names the registers "
-        "behind it."};
+        "behind it.",
+    .stop_reactions = rtc5_stops};
 
 rtc5::Card* rtc5_card_of(Rack& rack, std::string_view name) {
     auto* card = dynamic_cast<Rtc5Card*>(rack.card(name));

@@ -134,6 +134,14 @@ void CardProcessor::go_on(const std::array<std::int64_t, gb::output_count>& coun
     state_.stopping = state_.power_off = 0;
 }
 
+void go_on(const RunningStage& stage, std::span<const RunningStage> all, Instant now) {
+    std::array<std::int64_t, gb::output_count> counts{};
+    for (const RunningStage& one : all)
+        if (one.processor == stage.processor)
+            counts[static_cast<std::size_t>(one.config.output)] = one.scale->count(now);
+    stage.processor->go_on(counts);
+}
+
 /// Advances profile time by a frame; returns the change of its rate, 1/s.
 double CardProcessor::advance(const gb::Frame& frame, double period) {
     const auto sequence = static_cast<std::int64_t>(frame.sequence);

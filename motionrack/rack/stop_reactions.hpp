@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
 #include <motionrack/rack/stop_source.hpp>
@@ -26,6 +27,9 @@ enum class StopBy : std::uint8_t {
     latch   ///< the latch, with `act`
 };
 
+/// Order in which reactions are executed and listed; those of one kind in the order of the catalogue of cards.
+enum class StopOrder : std::uint8_t { axes, laser, conveyors, stages, analog_outputs, digital_outputs, spindle };
+
 struct StopReaction {
     std::string_view part;  ///< card type, or "belt", "stage", "spindle"
     std::uint32_t sources;  ///< bits of StopSource
@@ -35,18 +39,29 @@ struct StopReaction {
     Duration within;    ///< maximum time from the edge or command to the reaction or the start of its ramp
     bool ramp = false;  ///< a ramp follows
     void (*act)(Rack& rack, const StopReaction& reaction) = nullptr;
+    StopOrder order = StopOrder::axes;
 
     constexpr bool is_to(StopSource source) const { return (sources & 1u << static_cast<unsigned>(source)) != 0; }
 };
 
-/// Bits of all sources.
-inline constexpr std::uint32_t every_stop = [] {
+/// Bits of these sources.
+constexpr std::uint32_t stop_bits(std::initializer_list<StopSource> sources) {
     std::uint32_t out = 0;
-    for (const StopSource source : stop_sources) out |= 1u << static_cast<unsigned>(source);
+    for (const StopSource source : sources) out |= 1u << static_cast<unsigned>(source);
     return out;
-}();
+}
 
-/// All reactions: those of the table in stop_reactions.cpp, and those of the plug-ins of cards.
+/// Bits of the emergency stop, of all other sources, of all.
+inline constexpr std::uint32_t only_emergency_stop = stop_bits({StopSource::emergency_stop});
+inline constexpr std::uint32_t but_emergency_stop =
+    stop_bits({StopSource::stop_command, StopSource::drive_alarm, StopSource::limit_switch, StopSource::watchdog,
+               StopSource::following_error});
+inline constexpr std::uint32_t every_stop = only_emergency_stop | but_emergency_stop;
+
+/// One slice of the driver; an edge ends a slice immediately.
+inline constexpr Duration stop_slice = milliseconds(50);
+
+/// All reactions: those of the plug-ins of cards, and those of parts in stop_reactions.cpp.
 std::vector<StopReaction> stop_reactions();
 /// Executes the reactions of the latch itself to this source. Call between runs.
 void react(Rack& rack, StopSource source);
