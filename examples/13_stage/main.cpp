@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/grating.hpp>
 #include <motionrack/rack/grating_card.hpp>
 #include <motionrack/trace/svg.hpp>
 
@@ -40,10 +41,11 @@ rack::RackConfig with(rack::RackConfig config, const Trial& trial) {
     std::size_t host = 0;
     for (rack::RackCard& card : config.cards) {
         if (card.type != "grating_bus" || !trial.hosts) continue;
-        card.grating_bus.role = rack::GratingRole::host;
-        card.grating_bus.verify_lines = false;
-        card.grating_bus.offset_ns = 1e3 * trial.offset_us[host++];
-        if (card.name == "step") card.grating_bus.period_us *= 1 + 1e-6 * trial.drift_ppm;
+        auto& settings = card.settings.edit<rack::GratingBusSettings>();
+        settings.role = rack::GratingRole::host;
+        settings.verify_lines = false;
+        settings.offset_ns = 1e3 * trial.offset_us[host++];
+        if (card.name == "step") settings.period_us *= 1 + 1e-6 * trial.drift_ppm;
     }
     for (rack::RackStage& stage : config.stages) stage.servo->control_delay_us = trial.control_delay_us;
     return config;

@@ -131,14 +131,15 @@ const void* axis_default(bool rotary) {
 
 constexpr std::array<std::string_view, 1> axis_keys = {"axis"};
 constexpr std::array<PartSection, 5> axis_section_rows = {{
-    {"[axis.NAME]", "NAME is X, Y, Z (linear, mm) or A, B, C (rotary, degrees).", axis_table, axis_defaults},
-    {"[axis.NAME.motor]", "Pulses are microsteps.", motor_table, axis_default<&RackAxis::motor>},
+    {"[axis.NAME]", "NAME is X, Y, Z (linear, mm) or A, B, C (rotary, degrees).", rows_of<axis_table>, axis_defaults},
+    {"[axis.NAME.motor]", "Pulses are microsteps.", rows_of<motor_table>, axis_default<&RackAxis::motor>},
     {"[axis.NAME.servo]",
      "A servo amplifier with a DC motor and its tacho, in place of the stepping motor; with the section, even an empty "
      "one, the axis follows a voltage. The model is a first-order lag with a current limit.",
-     servo_table, default_object<RackServo>},
-    {"[axis.NAME.switches]", "Machine positions where they act.", switch_table, axis_default<&RackAxis::switches>},
-    {"[axis.NAME.homing]", "How `motionrack home` finds the home switch.", homing_table,
+     rows_of<servo_table>, default_object<RackServo>},
+    {"[axis.NAME.switches]", "Machine positions where they act.", rows_of<switch_table>,
+     axis_default<&RackAxis::switches>},
+    {"[axis.NAME.homing]", "How `motionrack home` finds the home switch.", rows_of<homing_table>,
      axis_default<&RackAxis::homing>},
 }};
 

@@ -2,6 +2,7 @@
 // plug-in; see catalogue.hpp.
 #pragma once
 
+#include <cstdint>
 #include <motionrack/base/card_map.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/stop_source.hpp>
@@ -59,6 +60,14 @@ struct CardFlaw {
     std::string text;
 };
 
+/// What a stage needs of the card that drives it.
+struct StageDrive {
+    int outputs = 0;  ///< analog outputs, numbered from 0; 0: the type drives no stage
+    /// Addresses of the scales that the card reads, in order; empty if its list is invalid.
+    std::vector<int> (*scales)(const RackCard& card) = nullptr;
+    double (*period_us)(const RackCard& card) = nullptr;  ///< frame period
+};
+
 /// For cards that move no axis.
 inline double no_rate(const RackCard&) {
     return 0;
@@ -90,6 +99,9 @@ struct CardType {
     std::span<const Lamp> lamps = {};
     std::string_view probe_pin = {};  ///< channel input whose edge can latch the position; empty: none
     std::span<const StopPin> stop_pins = {};
+    StageDrive stage_drive = {};
+    /// Number of scales that the card counts for the cards that read them; nullptr: not a decoder.
+    std::int64_t (*decoded_scales)(const RackCard& card) = nullptr;
     bool measures_only = false;  ///< the card moves nothing: its bus may be accessed manually while axes move
 
     int channel_count() const {
@@ -105,6 +117,9 @@ struct CardType {
 
 /// Names of all types, in the order of the reference page.
 std::span<const std::string_view> card_type_names();
+
+/// Names of the types of which this holds, in the same order.
+std::vector<std::string_view> card_types_that(bool (*holds)(const CardType& type));
 
 /// Returns the type with that name, or nullptr.
 const CardType* find_card_type(std::string_view name);

@@ -58,6 +58,13 @@ std::span<const std::string_view> card_type_names() {
     return names;
 }
 
+std::vector<std::string_view> card_types_that(bool (*holds)(const CardType& type)) {
+    std::vector<std::string_view> out;
+    for (const CardPlugin* plugin : plugins)
+        if (holds(plugin->type)) out.push_back(plugin->type.name);
+    return out;
+}
+
 bool Card::shows(std::string_view scope, std::string_view wire) const {
     if (scope == name()) return true;
     const std::string full = fmt::format("{}.{}", scope, wire);

@@ -59,35 +59,6 @@ struct Databoard4002Settings {
     std::int64_t bus_access_ns = 1'000;    ///< 0 .. 100,000 ns
 };
 
-/// Role of a grating-bus card; by default the first card of a rack is the host.
-enum class GratingRole : std::uint8_t { first_is_host, host, slave, remote };
-/// Direction of a level shifter of such a card.
-enum class GratingShifter : std::uint8_t { as_role, out, in };
-
-/// Settings of a card of type grating_bus; the model's are in cards/grating_bus/model/settings.hpp.
-struct GratingBusSettings {
-    GratingRole role = GratingRole::first_is_host;
-    std::int64_t scales = 4;                                   ///< scales in a frame, 1 .. 128
-    std::int64_t first = 0;                                    ///< address of the first scale, 0 .. 127
-    std::string addresses;                                     ///< list of addresses, see addresses_from_text
-    double t1_ns = 20, t2_ns = 30, t3_ns = 30, clock_ns = 10;  ///< 0.1 .. 6,000 ns
-    double period_us = 200;                                    ///< 1 .. 100,000 us
-    double offset_ns = 0;                                      ///< 0 .. 1e8 ns, at most one period
-    GratingShifter clock_shifter = GratingShifter::as_role;
-    GratingShifter address_shifter = GratingShifter::as_role;
-    bool verify_lines = true;
-    std::int64_t seed = 1;            ///< 0 .. 2^31 - 1
-    std::int64_t bus_access_ns = 40;  ///< 0 .. 100,000 ns
-};
-
-/// Settings of a card of type grating_decoder.
-struct GratingDecoderSettings {
-    std::int64_t scales = 4;           ///< 1 .. 128
-    double latch_ns = 10;              ///< 0 .. 6,000 ns
-    double output_ns = 20;             ///< 0.1 .. 6,000 ns
-    std::int64_t bus_access_ns = 500;  ///< 0 .. 100,000 ns
-};
-
 /// A card. Only the settings of its own type apply. Default values of the members are the rack file's defaults.
 struct RackCard {
     std::string name;             ///< name in wires: letters, digits, '_'
@@ -96,8 +67,6 @@ struct RackCard {
     SettingsBox settings;         ///< those of a type that its plug-in alone knows
     Mcx314Settings mcx314;
     Databoard4002Settings databoard4002;
-    GratingBusSettings grating_bus;
-    GratingDecoderSettings grating_decoder;
 };
 
 // ---- Axes
@@ -252,7 +221,7 @@ struct RackStageServo {
 /// A linear motor stage with its scale, driven by a motion card's analog output; see parts::LinearStageSettings.
 struct RackStage {
     std::string name;
-    std::string card;         ///< a grating_bus card
+    std::string card;         ///< one whose type drives stages, see StageDrive
     std::int64_t output = 0;  ///< analog output of the card, 0 .. 3
     std::int64_t input = 0;   ///< number of the stage's scale at the decoder, 0 .. 127
     double accel_per_volt_m_s2 = 5;

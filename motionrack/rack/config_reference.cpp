@@ -50,7 +50,7 @@ std::string card_type_text(const CardType& type) {
 std::string section_text(const PartSection& section) {
     const std::string doc = section.doc.empty() ? "" : fmt::format("{}\n\n", section.doc);
     return fmt::format("## {}\n{}{}", section.title, doc,
-                       fields_table(section.fields, section.defaults(false), section.defaults(true)));
+                       fields_table(section.fields(), section.defaults(false), section.defaults(true)));
 }
 
 /// Parts that are one wire come last.

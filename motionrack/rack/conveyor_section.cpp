@@ -193,15 +193,15 @@ constexpr std::array<PartSection, 3> conveyor_section_rows = {{
      "The conveyor under a scan head: a belt (mm) or a rotary table (degrees). In place of its velocity "
      "`profile = [[0, 50], [0.5, 120]]`: seconds and velocities, linear between, constant before and after. "
      "`motionrack run` and `mr_part_set` change the velocity: fault `drive.speed`.",
-     track_table, conveyor_defaults},
+     rows_of<track_table>, conveyor_defaults},
     {"[belt.NAME.sender]",
      "With the section, even an empty one, a position sender samples the position and gives the card's serial input "
      "words. In [table.NAME.sender] the same.",
-     sender_table, default_object<parts::SerialPositionSettings>},
+     rows_of<sender_table>, default_object<parts::SerialPositionSettings>},
     {"[belt.NAME.parts]",
      "With the section, even an empty one, parts pass a light barrier, which starts the card. In [table.NAME.parts] "
      "the same.",
-     passing_table, default_object<RackParts>},
+     rows_of<passing_table>, default_object<RackParts>},
 }};
 
 }  // namespace

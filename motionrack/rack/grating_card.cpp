@@ -67,11 +67,19 @@ constexpr std::array<Field, 4> grating_decoder_settings = {
 };
 
 void* grating_bus_settings_of(RackCard& card) {
-    return &card.grating_bus;
+    return &card.settings.edit<GratingBusSettings>();
 }
 
 void* grating_decoder_settings_of(RackCard& card) {
-    return &card.grating_decoder;
+    return &card.settings.edit<GratingDecoderSettings>();
+}
+
+double frame_period_us(const RackCard& card) {
+    return grating_bus_in(card).period_us;
+}
+
+std::int64_t decoded_scales(const RackCard& card) {
+    return grating_decoder_in(card).scales;
 }
 
 /// Common base of a motion card and a decoder.
@@ -131,7 +139,7 @@ class GratingCard final : public Member {
         : Member(config, std::move(bus)),
           kernel_(kernel),
           card_(kernel, config.name, *bus_, settings),
-          port_(kernel, card_, card_.id(), card_.interrupt_wire(), nanoseconds(config.grating_bus.bus_access_ns),
+          port_(kernel, card_, card_.id(), card_.interrupt_wire(), nanoseconds(grating_bus_in(config).bus_access_ns),
                 &log) {}
 
     gb::Card& card() { return card_; }
@@ -236,7 +244,7 @@ class DecoderCard final : public Member {
           kernel_(kernel),
           decoder_(kernel, config.name, *bus_, decoder_settings(config)),
           port_(kernel, decoder_, decoder_.id(), decoder_.interrupt_wire(),
-                nanoseconds(config.grating_decoder.bus_access_ns), &log) {}
+                nanoseconds(grating_decoder_in(config).bus_access_ns), &log) {}
 
     gb::Decoder& decoder() { return decoder_; }
 
@@ -295,7 +303,7 @@ std::unique_ptr<Card> make_grating_decoder(sim::Kernel& kernel, const RackCard& 
 
 /// Less than half a period, in steps of 0.1 ns.
 double max_frame_jitter_ns(const RackCard& card) {
-    return std::min(card.grating_bus.period_us * 500 - 0.1, max_push);
+    return std::min(grating_bus_in(card).period_us * 500 - 0.1, max_push);
 }
 
 constexpr std::array<CardFault, 5> grating_bus_faults = {{
@@ -340,7 +348,8 @@ constinit const CardPlugin grating_bus_plugin = {
              .chip_pins = grating_bus_pins,
              .settings = grating_bus_settings,
              .settings_of = grating_bus_settings_of,
-             .flaw = grating_bus_flaw},
+             .flaw = grating_bus_flaw,
+             .stage_drive = {gb::output_count, wanted_scales, frame_period_us}},
     .map = gb::card_map,
     .make = make_grating_bus,
     .no_live_port = no_grating_bus_port,
@@ -355,7 +364,8 @@ constinit const CardPlugin grating_decoder_plugin = {
              .settings = grating_decoder_settings,
              .settings_of = grating_decoder_settings_of,
              .flaw = grating_decoder_flaw,
-             .chip_pin_count = grating_decoder_pin_count},
+             .chip_pin_count = grating_decoder_pin_count,
+             .decoded_scales = decoded_scales},
     .map = gb::decoder_map,
     .make = make_grating_decoder,
     .no_live_port = no_grating_bus_port,

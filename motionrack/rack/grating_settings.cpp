@@ -12,7 +12,7 @@ namespace gb = grating_bus;
 
 /// Returns true for a motion card on the lines of this rack's bus.
 bool is_grating(const RackCard& card) {
-    return card.type == "grating_bus" && card.grating_bus.role != GratingRole::remote;
+    return card.type == "grating_bus" && grating_bus_in(card).role != GratingRole::remote;
 }
 bool is_decoder(const RackCard& card) {
     return card.type == "grating_decoder";
@@ -40,7 +40,7 @@ std::optional<CardFlaw> no_fit(const RackCard& card, const gb::CardSettings& set
 
 /// Checks the list of addresses itself, and against the keys that it replaces.
 std::optional<CardFlaw> list_flaw(const RackCard& card) {
-    const GratingBusSettings& own = card.grating_bus;
+    const GratingBusSettings& own = grating_bus_in(card);
     if (own.addresses.empty()) return std::nullopt;
     const auto list = gb::addresses_from_text(own.addresses);
     if (!list) return CardFlaw{"addresses", fmt::format("Card {}: {}", card.name, list.error().message)};
@@ -54,24 +54,25 @@ std::optional<CardFlaw> list_flaw(const RackCard& card) {
 
 }  // namespace
 
-std::vector<int> wanted_scales(const GratingBusSettings& card) {
+std::vector<int> wanted_scales(const RackCard& card) {
+    const GratingBusSettings& own = grating_bus_in(card);
     std::vector<int> out;
-    if (card.addresses.empty())
-        for (std::int64_t k = 0; k < card.scales; ++k) out.push_back(static_cast<int>(card.first + k));
-    else if (auto list = gb::addresses_from_text(card.addresses))
+    if (own.addresses.empty())
+        for (std::int64_t k = 0; k < own.scales; ++k) out.push_back(static_cast<int>(own.first + k));
+    else if (auto list = gb::addresses_from_text(own.addresses))
         out = std::move(*list);
     return out;
 }
 
 gb::CardSettings grating_settings(const RackCard& card, bool first) {
-    const GratingBusSettings& s = card.grating_bus;
+    const GratingBusSettings& s = grating_bus_in(card);
     gb::CardSettings out;
     const bool host = s.role == GratingRole::host || (s.role == GratingRole::first_is_host && first);
     out.role = s.role == GratingRole::remote ? gb::CardRole::remote : host ? gb::CardRole::host : gb::CardRole::slave;
     out.scales = static_cast<int>(s.scales);
     out.first = static_cast<int>(s.first);
     if (!s.addresses.empty()) {
-        out.addresses = wanted_scales(s);
+        out.addresses = wanted_scales(card);
         out.scales = static_cast<int>(out.addresses.size());
     }
     out.timing = {ns(s.t1_ns), ns(s.t2_ns), ns(s.t3_ns), ns(s.clock_ns)};
@@ -85,7 +86,7 @@ gb::CardSettings grating_settings(const RackCard& card, bool first) {
 }
 
 gb::DecoderSettings decoder_settings(const RackCard& card) {
-    const GratingDecoderSettings& s = card.grating_decoder;
+    const GratingDecoderSettings& s = grating_decoder_in(card);
     return {static_cast<int>(s.scales), ns(s.latch_ns), ns(s.output_ns)};
 }
 
@@ -112,7 +113,7 @@ std::optional<CardFlaw> grating_bus_flaw(const RackCard& card, std::span<const R
                 "period_us",
                 fmt::format(
                     "Card {} has a period of {} us and card {} one of {} us; all cards of a bus must have the same.",
-                    other.name, other.grating_bus.period_us, card.name, card.grating_bus.period_us)};
+                    other.name, grating_bus_in(other).period_us, card.name, grating_bus_in(card).period_us)};
     }
     return std::nullopt;
 }
@@ -129,7 +130,7 @@ std::optional<CardFlaw> grating_decoder_flaw(const RackCard& card, std::span<con
 }
 
 std::size_t grating_decoder_pin_count(const RackCard& card) {
-    return 2 * static_cast<std::size_t>(std::clamp<std::int64_t>(card.grating_decoder.scales, 1, gb::max_scales));
+    return 2 * static_cast<std::size_t>(std::clamp<std::int64_t>(grating_decoder_in(card).scales, 1, gb::max_scales));
 }
 
 }  // namespace motionrack::rack

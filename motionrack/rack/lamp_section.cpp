@@ -37,8 +37,8 @@ void read_lamps(const TomlNode& lamps, RackConfig& config, Problems& problems) {
 constexpr std::array<std::string_view, 1> lamp_keys = {"lamp"};
 constexpr std::array<PartSection, 1> lamp_section_rows = {{
     {"[lamp.NAME]",
-     "A signal lamp. What drives its input `NAME.in` is named in [wires]; without a wire the input is low.", lamp_table,
-     default_object<RackLamp>},
+     "A signal lamp. What drives its input `NAME.in` is named in [wires]; without a wire the input is low.",
+     rows_of<lamp_table>, default_object<RackLamp>},
 }};
 
 }  // namespace

@@ -13,7 +13,7 @@ std::span<const Field> part_fields(std::string_view header) {
     for (const PartKind* kind : part_kinds()) {
         if (kind->sections == nullptr) continue;
         for (const PartSection& section : kind->sections->sections)
-            if (section.title.starts_with(title)) return section.fields;
+            if (section.title.starts_with(title)) return section.fields();
     }
     return {};
 }

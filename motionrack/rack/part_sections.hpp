@@ -1,6 +1,8 @@
 // Sections of the rack file that describe parts: each kind has its tables of keys, and reads and checks its parts.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 #include <span>
@@ -15,7 +17,8 @@ namespace motionrack::rack {
 struct PartSection {
     std::string_view title;  ///< "[stage.NAME.scale]"
     std::string_view doc;    ///< paragraph below the title; may be empty
-    std::span<const Field> fields;
+    /// A function, because a table that names types of card asks the catalogue for them.
+    std::span<const Field> (*fields)();
     /// Returns the object of a part's defaults; they may be others for a rotary part.
     const void* (*defaults)(bool rotary);
 };
@@ -37,6 +40,20 @@ extern const PartSections stage_sections;
 extern const PartSections conveyor_sections;
 extern const PartSections scanner_sections;
 extern const PartSections lamp_sections;
+
+/// Returns a table that names no type of card.
+template <const auto& table>
+std::span<const Field> rows_of() {
+    return table;
+}
+
+/// The table with another meaning of the row `key`, one that names types of card.
+template <std::size_t n>
+std::array<Field, n> with_doc(std::array<Field, n> table, std::string_view key, std::string_view doc) {
+    for (Field& field : table)
+        if (field.key == key) field.doc = doc;
+    return table;
+}
 
 /// Returns the defaults of a section for parts without other defaults for rotary ones.
 template <class T>

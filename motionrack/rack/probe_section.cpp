@@ -61,7 +61,7 @@ constexpr std::array<PartSection, 1> probe_section_rows = {{
      "the rack has no probe. Where an axis has one bound or none the workpiece is unbounded there; without any bound "
      "the probe touches nothing. The axes must be on a card of type mcx314 with `variant = \"mcx314as\"`; by default "
      "its wire `probe` leads to the input `in3` of each of their channels.",
-     probe_table, default_object<RackProbe>},
+     rows_of<probe_table>, default_object<RackProbe>},
 }};
 
 }  // namespace

@@ -62,12 +62,12 @@ void read_scanners(const TomlNode& scanners, RackConfig& config, Problems& probl
 constexpr std::array<std::string_view, 1> scanner_keys = {"scanner"};
 constexpr std::array<PartSection, 4> scanner_section_rows = {{
     {"[scanner.NAME]", "Mirrors, lens and laser over a part, which stores the marks; driven by a card of type rtc5.",
-     scanner_table, default_object<RackScanner>},
+     rows_of<scanner_table>, default_object<RackScanner>},
     {"[scanner.NAME.lens]",
-     "With the section, even an empty one, the field is that of two mirrors and an f-theta lens.", lens_keys,
+     "With the section, even an empty one, the field is that of two mirrors and an f-theta lens.", rows_of<lens_keys>,
      default_object<RackLens>},
-    {"[scanner.NAME.galvo]", {}, galvo_keys, default_object<parts::GalvoSettings>},
-    {"[scanner.NAME.laser]", {}, laser_keys, default_object<parts::LaserSettings>},
+    {"[scanner.NAME.galvo]", {}, rows_of<galvo_keys>, default_object<parts::GalvoSettings>},
+    {"[scanner.NAME.laser]", {}, rows_of<laser_keys>, default_object<parts::LaserSettings>},
 }};
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/rack/config_parts.hpp>
-#include <motionrack/rack/grating.hpp>
 #include <motionrack/rack/part_sections.hpp>
 #include <motionrack/rack/stage.hpp>
 
@@ -12,13 +11,31 @@ namespace motionrack::rack {
 
 namespace {
 
+std::string stage_card_types() {
+    const auto drives = [](const CardType& type) { return type.stage_drive.outputs > 0; };
+    return fmt::format("{}", fmt::join(card_types_that(drives), " or "));
+}
+
+/// Highest number of an output that can drive a stage.
+int last_stage_output() {
+    int outputs = 1;
+    for (const std::string_view name : card_type_names())
+        outputs = std::max(outputs, find_card_type(name)->stage_drive.outputs);
+    return outputs - 1;
+}
+
+/// Returns nullptr if cards of that type drive no stage.
+const StageDrive* stage_drive_of(std::string_view card_type) {
+    const CardType* type = find_card_type(card_type);
+    return type != nullptr && type->stage_drive.outputs > 0 ? &type->stage_drive : nullptr;
+}
+
 constexpr std::array<std::string_view, 2> stage_tables = {"scale", "servo"};
 constexpr std::array<std::string_view, 3> stage_profiles = {"hold", "scan", "steps"};
 
 constexpr std::array<Field, 12> stage_table = {
-    required(field<&RackStage::card>("card", 1, 32, "", "name of the card (type grating_bus) that drives it"),
-             "required"),
-    field<&RackStage::output>("output", 0, grating_bus::output_count - 1, "", "number of the card's analog output"),
+    required(field<&RackStage::card>("card", 1, 32, "", "name of the card that drives it"), "required"),
+    field<&RackStage::output>("output", 0, 0, "", "number of the card's analog output"),
     required(field<&RackStage::input>("input", 0, 127, "", "number of its scale at the decoder"), "required"),
     field<&RackStage::accel_per_volt_m_s2>("accel_per_volt_m_s2", 0.001, 1'000, "m/s2",
                                            "acceleration per volt, without the load"),
@@ -87,6 +104,17 @@ constexpr std::array<Field, 16> stage_servo_table = {
     field<&RackStageServo::delay_ms>("delay_ms", 0, 1e9, "ms", "start time of the profile"),
 };
 
+std::span<const Field> stage_fields() {
+    static const std::string card_doc = fmt::format("name of the card (type {}) that drives it", stage_card_types());
+    static const auto table = [] {
+        auto out = with_doc(stage_table, "card", card_doc);
+        for (Field& field : out)
+            if (field.key == "output") field.max = last_stage_output();
+        return out;
+    }();
+    return table;
+}
+
 /// What conflicts in a stage.
 class StageCheck {
   public:
@@ -96,9 +124,10 @@ class StageCheck {
     void run() {
         const RackCard* card = config_.card(stage_.card);
         if (card == nullptr) return reader_.refuse("card", fmt::format("unknown card {}.", in_quotes(stage_.card)));
-        if (card->type != "grating_bus")
-            return reader_.refuse("card", fmt::format("card {} is of type {}; one of type grating_bus drives a stage.",
-                                                      stage_.card, card->type));
+        const StageDrive* drive = stage_drive_of(card->type);
+        if (drive == nullptr)
+            return reader_.refuse("card", fmt::format("card {} is of type {}; one of type {} drives a stage.",
+                                                      stage_.card, card->type, stage_card_types()));
         for (const RackStage& other : config_.stages) {
             if (other.card == stage_.card && other.output == stage_.output)
                 reader_.refuse("output", fmt::format("output {} of card {} drives stage {} already.", stage_.output,
@@ -107,15 +136,15 @@ class StageCheck {
                 reader_.refuse("input", fmt::format("scale {} of the decoder is that of stage {} already.",
                                                     stage_.input, other.name));
         }
-        const std::vector<int> wanted = wanted_scales(card->grating_bus);
+        const std::vector<int> wanted = drive->scales(*card);
         if (wanted.empty()) return;  // its list is invalid, which is reported for the card
         std::int64_t scales = 0;
         for (const RackCard& other : config_.cards)
-            if (other.type == "grating_bus")
-                for (const int address : wanted_scales(other.grating_bus))
-                    scales = std::max(scales, std::int64_t{1} + address);
+            if (const StageDrive* its = stage_drive_of(other.type))
+                for (const int address : its->scales(other)) scales = std::max(scales, std::int64_t{1} + address);
         for (const RackCard& other : config_.cards)
-            if (other.type == "grating_decoder") scales = other.grating_decoder.scales;
+            if (const CardType* type = find_card_type(other.type); type != nullptr && type->decoded_scales != nullptr)
+                scales = type->decoded_scales(other);
         if (stage_.input >= scales)
             reader_.refuse("input", fmt::format("its scale is number {}, but the decoder has {} (0 to {}).",
                                                 stage_.input, scales, scales - 1));
@@ -125,7 +154,7 @@ class StageCheck {
                 fmt::format("card {} cannot close its loop: it reads the scales {}, and its scale is number {}.",
                             stage_.card, fmt::join(wanted, ", "), stage_.input));
         check_scale();
-        if (check_servo()) check_place();
+        if (check_servo(drive->period_us(*card))) check_place();
     }
 
   private:
@@ -142,14 +171,13 @@ class StageCheck {
                            fmt::format("{} counts of a pitch are no multiple of 4, which A and B cannot represent.",
                                        stage_.scale.interpolation));
     }
-    bool check_servo() {
+    bool check_servo(double period_us) {
         if (!stage_.servo) return true;
         const TomlNode& table = *reader_.node().find("servo");
-        if (stage_.servo->control_delay_us >= config_.card(stage_.card)->grating_bus.period_us)
+        if (stage_.servo->control_delay_us >= period_us)
             reader_.refuse(table, "control_delay_us",
                            fmt::format("computing takes {} us, but the frame period is {} us.",
-                                       number_text(stage_.servo->control_delay_us),
-                                       number_text(config_.card(stage_.card)->grating_bus.period_us)));
+                                       number_text(stage_.servo->control_delay_us), number_text(period_us)));
         const std::string flaw = profile_flaw(stage_);
         if (!flaw.empty()) reader_.refuse(table, "profile", flaw);
         return flaw.empty();
@@ -189,7 +217,7 @@ void read_stage(const TomlNode& node, RackConfig& config, Problems& problems) {
     const auto read_own = [&](const TomlNode& table, std::span<const Field> fields, void* object) {
         return is_table(table, name + "." + table.key, problems) && reader.read_table(table, fields, object);
     };
-    bool sound = reader.read(stage_table, &stage, stage_tables);
+    bool sound = reader.read(stage_fields(), &stage, stage_tables);
     if (const TomlNode* scale = node.find("scale")) sound = read_own(*scale, scale_table, &stage.scale) && sound;
     if (const TomlNode* servo = node.find("servo"))
         sound = read_own(*servo, stage_servo_table, &stage.servo.emplace()) && sound;
@@ -206,12 +234,12 @@ constexpr std::array<std::string_view, 1> stage_keys = {"stage"};
 constexpr std::array<PartSection, 3> stage_section_rows = {{
     {"[stage.NAME]",
      "A stage on a linear motor with a grating scale, driven by an analog output of a card of a grating bus.",
-     stage_table, default_object<RackStage>},
-    {"[stage.NAME.scale]", {}, scale_table, default_object<RackScale>},
+     stage_fields, default_object<RackStage>},
+    {"[stage.NAME.scale]", {}, rows_of<scale_table>, default_object<RackScale>},
     {"[stage.NAME.servo]",
      "With the section, even an empty one, the card's processor closes a loop through the bus' frames and follows the "
      "profile.",
-     stage_servo_table, default_object<RackStageServo>},
+     rows_of<stage_servo_table>, default_object<RackStageServo>},
 }};
 
 }  // namespace
