@@ -1,7 +1,13 @@
 // Pins and channels of a type of card.
+#include <fmt/format.h>
+
 #include <motionrack/rack/card_types.hpp>
 
 namespace motionrack::rack {
+
+std::string card_types_text(bool (*holds)(const CardType& type)) {
+    return fmt::format("{}", fmt::join(card_types_that(holds), " or "));
+}
 
 std::vector<CardPin> pins_of(const RackCard& card) {
     const CardType* type = find_card_type(card.type);

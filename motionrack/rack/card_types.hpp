@@ -100,6 +100,7 @@ struct CardType {
     std::string_view probe_pin = {};  ///< channel input whose edge can latch the position; empty: none
     std::span<const StopPin> stop_pins = {};
     StageDrive stage_drive = {};
+    bool marks = false;  ///< it drives the mirrors and the laser of a scan head
     /// Number of scales that the card counts for the cards that read them; nullptr: not a decoder.
     std::int64_t (*decoded_scales)(const RackCard& card) = nullptr;
     bool measures_only = false;  ///< the card moves nothing: its bus may be accessed manually while axes move
@@ -118,8 +119,17 @@ struct CardType {
 /// Names of all types, in the order of the reference page.
 std::span<const std::string_view> card_type_names();
 
-/// Names of the types of which this holds, in the same order.
+/// Names of the types of which this holds, in the same order; and as a text, with "or" between them.
 std::vector<std::string_view> card_types_that(bool (*holds)(const CardType& type));
+std::string card_types_text(bool (*holds)(const CardType& type));
+
+// Conditions for these two.
+inline bool drives_stages(const CardType& type) {
+    return type.stage_drive.outputs > 0;
+}
+inline bool drives_scan_heads(const CardType& type) {
+    return type.marks;
+}
 
 /// Returns the type with that name, or nullptr.
 const CardType* find_card_type(std::string_view name);

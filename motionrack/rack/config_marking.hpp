@@ -22,7 +22,7 @@ struct RackParts {
 struct RackConveyor {
     std::string name;
     bool rotary = false;
-    std::optional<std::string> card;          ///< an rtc5 card; default destination of the conveyor's lines
+    std::optional<std::string> card;          ///< one that marks; default destination of the conveyor's lines
     std::int64_t encoder = 0;                 ///< 0, 1: the card's encoder input
     double velocity = 100;                    ///< mm/s or degrees/s
     double deceleration = 2000;               ///< mm/s2 or degrees/s2, when the conveyor is stopped
@@ -49,7 +49,7 @@ inline constexpr double max_track_counts = 1e7, max_parts = 1e5;
 /// A scan head with its laser over a part; see parts::StationSettings.
 struct RackScanner {
     std::string name;
-    std::string card;                     ///< an rtc5 card
+    std::string card;                     ///< one that marks
     std::optional<std::string> conveyor;  ///< conveyor that carries the part; absent: a stationary part
     double bits_per_mm = 8656;            ///< scale without a lens
     double tolerance_um = 0.2;

@@ -48,8 +48,8 @@ std::string card_type_text(const CardType& type) {
 }
 
 std::string section_text(const PartSection& section) {
-    const std::string doc = section.doc.empty() ? "" : fmt::format("{}\n\n", section.doc);
-    return fmt::format("## {}\n{}{}", section.title, doc,
+    const std::string doc = section.doc_of_cards != nullptr ? section.doc_of_cards() : std::string(section.doc);
+    return fmt::format("## {}\n{}{}{}", section.title, doc, doc.empty() ? "" : "\n\n",
                        fields_table(section.fields(), section.defaults(false), section.defaults(true)));
 }
 

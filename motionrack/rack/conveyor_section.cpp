@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 3> track_tables = {"profile", "sender", "
 constexpr std::size_t max_profile_points = 10'000;
 
 constexpr std::array<Field, 10> track_table = {
-    absent_means(field<&RackConveyor::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"),
+    absent_means(field<&RackConveyor::card>("card", 1, 32, "", "name of the card that its lines lead to"),
                  "where [wires] says"),
     field<&RackConveyor::encoder>("encoder", 0, 1, "", "encoder input of the card for its encoder"),
     formerly("speed_{u}_s", field<&RackConveyor::velocity>("velocity_{u}_s", -parts::max_track_velocity,
@@ -53,6 +53,13 @@ constexpr std::array<Field, 3> passing_table = {
                               "length of a part, less than the pitch; the sensor is low along it"),
 };
 
+std::span<const Field> track_fields() {
+    static const std::string card_doc =
+        fmt::format("name of the card (type {}) that its lines lead to", card_types_text(drives_scan_heads));
+    static const auto table = with_doc(track_table, "card", card_doc);
+    return table;
+}
+
 class ConveyorReader {
   public:
     /// `track`: a belt or table with its name.
@@ -61,7 +68,7 @@ class ConveyorReader {
 
     void read() {
         const TomlNode& node = reader_.node();
-        bool sound = reader_.read(track_table, &track_, track_tables);
+        bool sound = reader_.read(track_fields(), &track_, track_tables);
         if (const TomlNode* sender = node.find("sender"))
             sound = reader_.read_table(*sender, sender_table, &track_.sender.emplace()) && sound;
         if (const TomlNode* row = node.find("parts"))
@@ -193,7 +200,7 @@ constexpr std::array<PartSection, 3> conveyor_section_rows = {{
      "The conveyor under a scan head: a belt (mm) or a rotary table (degrees). In place of its velocity "
      "`profile = [[0, 50], [0.5, 120]]`: seconds and velocities, linear between, constant before and after. "
      "`motionrack run` and `mr_part_set` change the velocity: fault `drive.speed`.",
-     rows_of<track_table>, conveyor_defaults},
+     track_fields, conveyor_defaults},
     {"[belt.NAME.sender]",
      "With the section, even an empty one, a position sender samples the position and gives the card's serial input "
      "words. In [table.NAME.sender] the same.",
@@ -219,8 +226,10 @@ bool is_marking_name(const TomlNode& node, const RackConfig& config, Problems& p
 bool is_marking_card(const std::string& name, const RackConfig& config, PartReader& reader) {
     const RackCard* card = config.card(name);
     if (card == nullptr) return reader.refuse("card", fmt::format("unknown card {}.", in_quotes(name))), false;
-    if (card->type == "rtc5" || card->type.empty()) return true;
-    return reader.refuse("card", fmt::format("card {} is of type {}; one of type rtc5 marks.", name, card->type)),
+    const CardType* type = find_card_type(card->type);
+    if (card->type.empty() || (type != nullptr && drives_scan_heads(*type))) return true;
+    return reader.refuse("card", fmt::format("card {} is of type {}; one of type {} marks.", name, card->type,
+                                             card_types_text(drives_scan_heads))),
            false;
 }
 

@@ -21,6 +21,7 @@ struct PartSection {
     std::span<const Field> (*fields)();
     /// Returns the object of a part's defaults; they may be others for a rotary part.
     const void* (*defaults)(bool rotary);
+    std::string (*doc_of_cards)() = nullptr;  ///< in place of `doc` where it names types of card
 };
 
 /// The sections of a kind of part.

@@ -177,7 +177,8 @@ constinit const CardPlugin rtc5_plugin = {
                  "the commands of its library",
              .chip_pins = rtc5_pins,
              .settings = rtc5_settings,
-             .settings_of = rtc5_of},
+             .settings_of = rtc5_of,
+             .marks = true},
     .map = rtc5::card_map,
     .make = make_rtc5,
     .no_live_port =

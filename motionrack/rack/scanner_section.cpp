@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<std::string_view, 3> scanner_tables = {"lens", "galvo", "laser"};
 
 constexpr std::array<Field, 5> scanner_table = {
-    required(field<&RackScanner::card>("card", 1, 32, "", "name of the card (type rtc5) that drives it"), "required"),
+    required(field<&RackScanner::card>("card", 1, 32, "", "name of the card that drives it"), "required"),
     absent_means(formerly("part_on", field<&RackScanner::conveyor>("conveyor", 1, 32, "",
                                                                    "name of the belt or table that carries the part")),
                  "none: the part does not move"),
@@ -24,6 +24,18 @@ constexpr std::array<Field, 5> scanner_table = {
              field<&RackScanner::max_points>("max_points", 16, 4'000'000, "",
                                              "stored points of marks; further points are only counted")),
 };
+
+std::span<const Field> scanner_fields() {
+    static const std::string card_doc =
+        fmt::format("name of the card (type {}) that drives it", card_types_text(drives_scan_heads));
+    static const auto table = with_doc(scanner_table, "card", card_doc);
+    return table;
+}
+
+std::string scanner_doc() {
+    return fmt::format("Mirrors, lens and laser over a part, which stores the marks; driven by a card of type {}.",
+                       card_types_text(drives_scan_heads));
+}
 
 void check_scanner(const RackScanner& scanner, const RackConfig& config, PartReader& reader) {
     if (scanner.conveyor && config.track(*scanner.conveyor) == nullptr)
@@ -44,7 +56,7 @@ void read_scanner(const TomlNode& node, RackConfig& config, Problems& problems) 
     scanner.name = node.key;
     const std::string name = "scanner " + node.key;
     PartReader reader(node, {name, "", "", {}}, name, problems);
-    bool sound = reader.read(scanner_table, &scanner, scanner_tables);
+    bool sound = reader.read(scanner_fields(), &scanner, scanner_tables);
     if (const TomlNode* lens = node.find("lens"))
         sound = reader.read_table(*lens, lens_keys, &scanner.lens.emplace()) && sound;
     if (const TomlNode* galvo = node.find("galvo"))
@@ -61,8 +73,7 @@ void read_scanners(const TomlNode& scanners, RackConfig& config, Problems& probl
 
 constexpr std::array<std::string_view, 1> scanner_keys = {"scanner"};
 constexpr std::array<PartSection, 4> scanner_section_rows = {{
-    {"[scanner.NAME]", "Mirrors, lens and laser over a part, which stores the marks; driven by a card of type rtc5.",
-     rows_of<scanner_table>, default_object<RackScanner>},
+    {"[scanner.NAME]", {}, scanner_fields, default_object<RackScanner>, scanner_doc},
     {"[scanner.NAME.lens]",
      "With the section, even an empty one, the field is that of two mirrors and an f-theta lens.", rows_of<lens_keys>,
      default_object<RackLens>},

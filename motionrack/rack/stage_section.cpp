@@ -11,11 +11,6 @@ namespace motionrack::rack {
 
 namespace {
 
-std::string stage_card_types() {
-    const auto drives = [](const CardType& type) { return type.stage_drive.outputs > 0; };
-    return fmt::format("{}", fmt::join(card_types_that(drives), " or "));
-}
-
 /// Highest number of an output that can drive a stage.
 int last_stage_output() {
     int outputs = 1;
@@ -27,7 +22,7 @@ int last_stage_output() {
 /// Returns nullptr if cards of that type drive no stage.
 const StageDrive* stage_drive_of(std::string_view card_type) {
     const CardType* type = find_card_type(card_type);
-    return type != nullptr && type->stage_drive.outputs > 0 ? &type->stage_drive : nullptr;
+    return type != nullptr && drives_stages(*type) ? &type->stage_drive : nullptr;
 }
 
 constexpr std::array<std::string_view, 2> stage_tables = {"scale", "servo"};
@@ -105,7 +100,8 @@ constexpr std::array<Field, 16> stage_servo_table = {
 };
 
 std::span<const Field> stage_fields() {
-    static const std::string card_doc = fmt::format("name of the card (type {}) that drives it", stage_card_types());
+    static const std::string card_doc =
+        fmt::format("name of the card (type {}) that drives it", card_types_text(drives_stages));
     static const auto table = [] {
         auto out = with_doc(stage_table, "card", card_doc);
         for (Field& field : out)
@@ -127,7 +123,7 @@ class StageCheck {
         const StageDrive* drive = stage_drive_of(card->type);
         if (drive == nullptr)
             return reader_.refuse("card", fmt::format("card {} is of type {}; one of type {} drives a stage.",
-                                                      stage_.card, card->type, stage_card_types()));
+                                                      stage_.card, card->type, card_types_text(drives_stages)));
         for (const RackStage& other : config_.stages) {
             if (other.card == stage_.card && other.output == stage_.output)
                 reader_.refuse("output", fmt::format("output {} of card {} drives stage {} already.", stage_.output,

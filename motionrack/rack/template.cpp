@@ -189,7 +189,7 @@ std::string marking() {
     const RackParts parts;
     const RackLens lens;
     Writer out;
-    write_head(out, config, "scan", "rtc5");
+    write_head(out, config, "scan", card_types_that(drives_scan_heads).front());
     out.section("belt.line",
                 "conveyor of the parts, by a name of your choice; [table.NAME] is a rotary table, in degrees");
     out.fields(part_fields("belt.NAME"), &line, &line_defaults, "mm");
