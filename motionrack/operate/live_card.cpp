@@ -24,7 +24,7 @@ constexpr const char* by_its_wires =
 LiveCard::LiveCard(const LivePlace& place, rack::Rack& rack, const rack::CardPlugin& plugin)
     : place_(place),
       plugin_(plugin),
-      select_(static_cast<std::uint8_t>(rack.config().card(place.card)->databoard4002.card_number)),
+      select_(rack::bus_select(*rack.config().card(place.card))),
       host_(rack.cards().front()->host()) {}
 
 Result<std::unique_ptr<LiveCard>> LiveCard::open(const LivePlace& place, rack::Rack& rack) {

@@ -91,6 +91,7 @@ struct CardType {
     std::int64_t max_position = 2'147'483'647;            ///< limit of the position counters, counts or pulses
     std::span<const std::string_view> home_pins = {};     ///< inputs of a channel for a home switch, by input number
     std::span<const std::string_view> index_pins = {};    ///< inputs of a channel for an encoder's index
+    std::uint8_t (*select)(const RackCard&) = nullptr;    ///< see CardBus; nullptr: no number selects a card
     bool position_loop = false;  ///< the card positions an axis by itself; the axis needs an encoder
     /// Checks that involve several keys; `before`: the preceding cards in the file. May be nullptr.
     std::optional<CardFlaw> (*flaw)(const RackCard& card, std::span<const RackCard> before) = nullptr;

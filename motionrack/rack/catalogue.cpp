@@ -72,8 +72,13 @@ bool Card::shows(std::string_view scope, std::string_view wire) const {
     return std::find(shared.begin(), shared.end(), full) != shared.end();
 }
 
+std::uint8_t bus_select(const RackCard& card) {
+    const CardType* type = find_card_type(card.type);
+    return type != nullptr && type->select != nullptr ? type->select(card) : std::uint8_t{0};
+}
+
 CardBus bus_of(Card& card, const RackCard& config) {
-    return {card.port(), card.byte_port(), &card.host(), static_cast<std::uint8_t>(config.databoard4002.card_number)};
+    return {card.port(), card.byte_port(), &card.host(), bus_select(config)};
 }
 
 tl::unexpected<Error> no_such_value(const Card& card, std::string_view name, std::span<const std::string_view> more) {

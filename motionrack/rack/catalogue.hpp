@@ -152,6 +152,8 @@ struct CardBus {
     Interrupt* host = nullptr;
     std::uint8_t select = 0;  ///< number that selects a card with byte ports
 };
+/// Number that selects a card of the rack file on its bus, as in CardBus; 0: none does.
+std::uint8_t bus_select(const RackCard& card);
 /// Bus of a virtual card.
 CardBus bus_of(Card& card, const RackCard& config);
 

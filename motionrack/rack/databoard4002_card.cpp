@@ -52,7 +52,7 @@ db::PositionAxisSettings axis_settings(const RackConfig& config, const RackAxis&
     out.limits = config.limits()[static_cast<std::size_t>(axis.index())];
     out.counts_per_unit = axis.counts_per_unit() * counts_of_edge[static_cast<std::size_t>(count_mode)];
     if (axis.servo) {
-        out.scale.trim = *db::trim_from_text(config.card(axis.card)->databoard4002.trim);
+        out.scale.trim = *db::trim_from_text(databoard4002_in(*config.card(axis.card)).trim);
         out.scale.analog = true;
         out.scale.counts_per_volt = axis.servo->velocity_per_volt * out.counts_per_unit;
         out.lag_s = axis.servo->time_constant_ms * 1e-3 * (1 + axis.servo->load_inertia_ratio);
@@ -91,12 +91,12 @@ class Databoard4002Card final : public MotionCard {
   public:
     Databoard4002Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log, std::shared_ptr<db::Bus> bus)
         : name_(config.name),
-          card_number_(config.databoard4002.card_number),
-          card_(kernel, config.name, settings_of(config.databoard4002)),
+          card_number_(databoard4002_in(config).card_number),
+          card_(kernel, config.name, settings_of(databoard4002_in(config))),
           bus_(bus ? std::move(bus) : std::make_shared<db::Bus>(kernel, "databoard")),
-          port_(kernel, *bus_, bus_->id(), bus_->interrupt_wire(), nanoseconds(config.databoard4002.bus_access_ns),
+          port_(kernel, *bus_, bus_->id(), bus_->interrupt_wire(), nanoseconds(databoard4002_in(config).bus_access_ns),
                 &log) {
-        bus_->plug(card_, static_cast<std::uint8_t>(config.databoard4002.card_number));
+        bus_->plug(card_, static_cast<std::uint8_t>(databoard4002_in(config).card_number));
     }
 
     const std::shared_ptr<db::Bus>& bus() const { return bus_; }
@@ -172,7 +172,7 @@ class Databoard4002Card final : public MotionCard {
         if (axis_ && !given_away_) return axis_.get();
         const RackAxis* found = config.axis(letter);
         MOTIONRACK_ASSERT(found != nullptr && found->card == name_);
-        const Databoard4002Settings& own = config.card(name_)->databoard4002;
+        const Databoard4002Settings& own = databoard4002_in(*config.card(name_));
         db::DriverSettings settings;
         settings.select = static_cast<std::uint8_t>(own.card_number);
         auto driver = std::make_unique<db::Driver>(port_, port_, settings);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <motionrack/cards/databoard4002/driver/driver.hpp>
 #include <motionrack/cards/databoard4002/library/library.hpp>
 #include <motionrack/cards/databoard4002/map.hpp>
 #include <motionrack/cards/databoard4002/trim_text.hpp>
@@ -101,18 +102,18 @@ double any_accel(const RackCard&) {
 
 // Counts all edges; an up or down pulse counts as one pulse.
 double databoard4002_encoder_hz(const RackCard& card) {
-    const Databoard4002Settings& own = card.databoard4002;
+    const Databoard4002Settings& own = databoard4002_in(card);
     return (own.single_ended ? 50'000.0 : 100'000.0) * (own.count_mode == Databoard4002CountMode::up_down ? 1 : 4);
 }
 
 void* databoard4002_of(RackCard& card) {
-    return &card.databoard4002;
+    return &card.settings.edit<Databoard4002Settings>();
 }
 
 std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const RackCard> before) {
-    const Databoard4002Settings& own = card.databoard4002;
+    const Databoard4002Settings& own = databoard4002_in(card);
     for (const RackCard& other : before)
-        if (other.type == card.type && other.databoard4002.card_number == own.card_number)
+        if (other.type == card.type && databoard4002_in(other).card_number == own.card_number)
             return CardFlaw{
                 "card_number",
                 fmt::format("Cards {} and {} are on one bus and have both the number {}; give one of them another "
@@ -133,11 +134,36 @@ std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const
 std::unique_ptr<FunctionLibrary> databoard4002_library(const CardBus& bus) {
     return std::make_unique<db::CommandLibrary>(*bus.bytes, *bus.host, bus.select);
 }
-Result<RegisterView> databoard4002_view(const CardBus& bus, bool) {
-    return view_databoard4002(*bus.bytes, *bus.host, bus.select);
+std::uint8_t databoard4002_select(const RackCard& card) {
+    return static_cast<std::uint8_t>(databoard4002_in(card).card_number);
 }
+
+/// STAT, and POSITION and RATE by its commands P and R. These change no motion and no event; an unfinished sequence of
+/// argument bytes ends. Errors: machine if no card answers, or it is not Ready in time.
+Result<RegisterView> databoard4002_view(const CardBus& bus, bool) {
+    db::DriverSettings settings;
+    settings.select = bus.select;
+    db::Driver driver(*bus.bytes, *bus.host, settings);
+    constexpr std::uint8_t empty_slot = 0xFF;
+    const std::uint8_t stat = driver.status().word;
+    if (stat == empty_slot)
+        return fail(ErrorKind::machine, fmt::format("No card answers under the number {} (STAT reads FFh). Nothing was "
+                                                    "changed. Check the number, its straps and its power.",
+                                                    bus.select));
+    MOTIONRACK_TRY(const std::int64_t position, driver.position());
+    MOTIONRACK_TRY(const int rate, driver.rate());
+    RegisterView view;
+    for (const RegisterInfo& reg : db::card_map().registers)
+        if (reg.name == "STAT") view.registers.push_back({&reg, "", stat});
+    view.values = {{"POSITION", "", position, "counts"}, {"RATE", "", rate, "rate at the output, 0 at standstill"}};
+    return view;
+}
+/// Reads STAT again. The driver selects the card and reads STAT at any time, also within a command.
 void databoard4002_view_again(const CardBus& bus, RegisterView& view) {
-    view_status_databoard4002(*bus.bytes, *bus.host, bus.select, view);
+    db::DriverSettings settings;
+    settings.select = bus.select;
+    for (RegisterSnapshot& seen : view.registers)
+        if (seen.reg->name == "STAT") seen.word = db::Driver(*bus.bytes, *bus.host, settings).status().word;
 }
 
 constexpr std::array<CardFault, 5> databoard4002_faults = {{
@@ -177,6 +203,7 @@ constinit const CardPlugin databoard4002_plugin = {
              .max_position = 8'388'607,
              .home_pins = databoard4002_references,
              .index_pins = databoard4002_zeros,
+             .select = databoard4002_select,
              .position_loop = true,
              .flaw = databoard4002_flaw,
              .stop_pins = databoard4002_stop_pins},

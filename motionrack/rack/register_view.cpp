@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <motionrack/cards/databoard4002/driver/driver.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/rack/register_view.hpp>
 #include <nlohmann/json.hpp>
@@ -56,32 +55,6 @@ RegisterView view_mcx314(RegisterPort& port, bool clearing) {
         }
     }
     return view;
-}
-
-Result<RegisterView> view_databoard4002(BytePort& port, Interrupt& host, std::uint8_t select) {
-    databoard4002::DriverSettings settings;
-    settings.select = select;
-    databoard4002::Driver driver(port, host, settings);
-    constexpr std::uint8_t empty_slot = 0xFF;
-    const std::uint8_t stat = driver.status().word;
-    if (stat == empty_slot)
-        return fail(ErrorKind::machine, fmt::format("No card answers under the number {} (STAT reads FFh). Nothing was "
-                                                    "changed. Check the number, its straps and its power.",
-                                                    select));
-    MOTIONRACK_TRY(const std::int64_t position, driver.position());
-    MOTIONRACK_TRY(const int rate, driver.rate());
-    RegisterView view;
-    for (const RegisterInfo& reg : databoard4002::card_map().registers)
-        if (reg.name == "STAT") view.registers.push_back({&reg, "", stat});
-    view.values = {{"POSITION", "", position, "counts"}, {"RATE", "", rate, "rate at the output, 0 at standstill"}};
-    return view;
-}
-
-void view_status_databoard4002(BytePort& port, Interrupt& host, std::uint8_t select, RegisterView& view) {
-    databoard4002::DriverSettings settings;
-    settings.select = select;
-    for (RegisterSnapshot& seen : view.registers)
-        if (seen.reg->name == "STAT") seen.word = databoard4002::Driver(port, host, settings).status().word;
 }
 
 std::string view_text(const RegisterView& view, bool all) {

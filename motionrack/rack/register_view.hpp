@@ -35,13 +35,6 @@ struct RegisterView {
 /// meanwhile. `clearing`: also reads RR3, which clears its flags and releases the interrupt line.
 RegisterView view_mcx314(RegisterPort& port, bool clearing);
 
-/// Reads a DataBoard 4002 that is selected by this number: STAT, and POSITION and RATE by its commands P and R. These
-/// change no motion and no event; an unfinished sequence of argument bytes ends. `host`: the card's time. Errors:
-/// machine if no card answers, or it is not Ready in time.
-Result<RegisterView> view_databoard4002(BytePort& port, Interrupt& host, std::uint8_t select);
-/// Reads STAT again. The card's driver selects the card and reads STAT at any time, also within a command.
-void view_status_databoard4002(BytePort& port, Interrupt& host, std::uint8_t select, RegisterView& view);
-
 /// Formats the view for a terminal; fields with value 0 are left out unless `all`.
 std::string view_text(const RegisterView& view, bool all);
 std::string view_json(const RegisterView& view);

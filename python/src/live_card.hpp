@@ -58,7 +58,7 @@ class LiveCard final : public Host {
     /// Manual access at the offset of a readable or writable register. Throws invalid_input.
     std::uint16_t read(std::uint32_t offset);
     void write(std::uint32_t offset, std::int64_t value);
-    /// Returns the decoded registers, also while a stop is latched: see rack::view_mcx314, rack::view_databoard4002.
+    /// Returns the decoded registers, also while a stop is latched: see rack::CardPlugin::view.
     std::string view(bool clearing);
     /// Throws refused if the port has no interrupt.
     bool wait_interrupt(Duration timeout);

@@ -30,7 +30,7 @@ Result<void> LiveDataboard4002::stop() {
 }
 
 Result<rack::RegisterView> LiveDataboard4002::view(bool) {
-    return rack::view_databoard4002(*port_, *port_, select_);
+    return rack::databoard4002_plugin.view({.bytes = port_.get(), .host = port_.get(), .select = select_}, false);
 }
 
 }  // namespace motionrack::python

@@ -35,12 +35,12 @@ Result<std::shared_ptr<OpenDataboard>> card_on(const std::shared_ptr<DataboardBu
     std::vector<std::int64_t> known;
     for (const rack::RackCard& each : rack.config().cards) {
         if (each.type != "databoard4002") continue;
-        if (each.databoard4002.card_number == number) {
+        if (rack::bus_select(each) == number) {
             rack::Card* const card = rack.card(each.name);
             sim::VirtualBytePort& port = *card->byte_port();
             return std::make_shared<OpenDataboard>(bus, card, port, port, select);
         }
-        known.push_back(each.databoard4002.card_number);
+        known.push_back(rack::bus_select(each));
     }
     return fail(
         ErrorKind::invalid_input,

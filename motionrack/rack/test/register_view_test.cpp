@@ -100,11 +100,11 @@ TEST(DataBoardsView, ShowsItsStatusItsPositionAndItsRate) {
     ASSERT_TRUE(driver.set_rate(16'000));
     ASSERT_TRUE(driver.move_to(-30, whole_seconds(1)));
     card.host().pass(milliseconds(1));  // it is busy with the last command
-    const Result<RegisterView> view = view_databoard4002(*card.byte_port(), card.host(), 5);
+    const Result<RegisterView> view = databoard4002_plugin.view({nullptr, card.byte_port(), &card.host(), 5}, false);
     ASSERT_TRUE(view) << view.error().message;
     EXPECT_THAT(view_text(*view, false), HasSubstr("STAT    80h  status\n          READY  1 "));
     EXPECT_THAT(view_text(*view, false), HasSubstr("POSITION    -30         counts\n"));
-    const Result<RegisterView> absent = view_databoard4002(*card.byte_port(), card.host(), 6);
+    const Result<RegisterView> absent = databoard4002_plugin.view({nullptr, card.byte_port(), &card.host(), 6}, false);
     ASSERT_FALSE(absent);
     EXPECT_THAT(absent.error().message, HasSubstr("No card answers under the number 6"));
 }
