@@ -1,5 +1,8 @@
 // Sections [axis.X] of a rack file: their keys. The reader of the file reads them, with the ideal axes of a card alone.
+#include <fmt/format.h>
+
 #include <array>
+#include <motionrack/rack/card_types.hpp>
 #include <motionrack/rack/part_sections.hpp>
 
 namespace motionrack::rack {
@@ -10,8 +13,7 @@ constexpr std::array<std::string_view, 2> axis_kinds = {"linear", "rotary"};
 
 constexpr std::array<Field, 18> axis_table = {
     required(field<&RackAxis::card>("card", 1, 32, "", "name of the card that drives the axis"), "required"),
-    absent_means(field<&RackAxis::channel>("channel", 1, 1, "", "the card's channel (x, y, z or u of an mcx314)"),
-                 "the only one of its card"),
+    absent_means(field<&RackAxis::channel>("channel", 1, 1, "", "the card's channel"), "the only one of its card"),
     absent_means(with_choices(field<&RackAxis::kind>("kind", 0, 0, "", "X Y Z are linear, A B C rotary"), axis_kinds),
                  "by the letter"),
     field<&RackAxis::motor_steps_per_rev>("motor_steps_per_rev", 1, 1'000'000, "",
@@ -129,9 +131,29 @@ const void* axis_default(bool rotary) {
     return &(default_axis_of(rotary).*member);
 }
 
+/// With the names of the channels of a type that has several.
+std::string channel_doc() {
+    const CardType& type = *find_card_type(card_types_that(has_channels).front());
+    const int count = type.channel_count();
+    std::string names;
+    for (int channel = 0; channel < count; ++channel)
+        names += fmt::format("{}{}",
+                             channel == 0          ? ""
+                             : channel + 1 < count ? ", "
+                                                   : " or ",
+                             type.channel_name(channel));
+    return fmt::format("the card's channel ({} of an {})", names, type.name);
+}
+
+std::span<const Field> axis_fields() {
+    static const std::string channel = channel_doc();
+    static const auto table = with_doc(axis_table, "channel", channel);
+    return table;
+}
+
 constexpr std::array<std::string_view, 1> axis_keys = {"axis"};
 constexpr std::array<PartSection, 5> axis_section_rows = {{
-    {"[axis.NAME]", "NAME is X, Y, Z (linear, mm) or A, B, C (rotary, degrees).", rows_of<axis_table>, axis_defaults},
+    {"[axis.NAME]", "NAME is X, Y, Z (linear, mm) or A, B, C (rotary, degrees).", axis_fields, axis_defaults},
     {"[axis.NAME.motor]", "Pulses are microsteps.", rows_of<motor_table>, axis_default<&RackAxis::motor>},
     {"[axis.NAME.servo]",
      "A servo amplifier with a DC motor and its tacho, in place of the stepping motor; with the section, even an empty "

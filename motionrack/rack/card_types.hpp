@@ -98,7 +98,10 @@ struct CardType {
     /// Number of chip pins, for cards whose settings determine it. nullptr: all of them.
     std::size_t (*chip_pin_count)(const RackCard& card) = nullptr;
     std::span<const Lamp> lamps = {};
-    std::string_view probe_pin = {};  ///< channel input whose edge can latch the position; empty: none
+    std::span<const std::string_view> template_wires = {};  ///< lines of a template's [wires], with the card "motion"
+    std::string_view probe_pin = {};                  ///< channel input whose edge can latch the position; empty: none
+    bool (*latches)(const RackCard& card) = nullptr;  ///< the card's settings make it latch; with a probe_pin only
+    std::string_view latches_with = {};               ///< those settings as a rack file has them
     std::span<const StopPin> stop_pins = {};
     StageDrive stage_drive = {};
     bool marks = false;  ///< it drives the mirrors and the laser of a scan head
@@ -127,6 +130,15 @@ std::string card_types_text(bool (*holds)(const CardType& type));
 // Conditions for these two.
 inline bool drives_stages(const CardType& type) {
     return type.stage_drive.outputs > 0;
+}
+inline bool has_channels(const CardType& type) {
+    return !type.channels.empty();
+}
+inline bool positions_by_itself(const CardType& type) {
+    return type.position_loop;
+}
+inline bool can_latch(const CardType& type) {
+    return type.latches != nullptr;
 }
 inline bool drives_scan_heads(const CardType& type) {
     return type.marks;

@@ -4,6 +4,8 @@
 #include <memory>
 #include <motionrack/base/card_map.hpp>
 #include <motionrack/base/function_library.hpp>
+#include <motionrack/base/port.hpp>
+#include <motionrack/base/result.hpp>
 #include <motionrack/control/axis.hpp>
 #include <motionrack/control/axis_group.hpp>
 #include <motionrack/rack/card_types.hpp>

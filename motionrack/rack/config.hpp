@@ -21,33 +21,12 @@ namespace motionrack::rack {
 
 // ---- Cards
 
-/// Width of a card's bus.
-enum class BusWidth : std::uint8_t { bits16, bits8 };
-/// Chip variants of a card of type mcx314.
-enum class Mcx314Variant : std::uint8_t { mcx314, mcx314as };
-/// Points on which the sources disagree: the velocity of a drive with V <= SV, the start of + software limits.
-enum class Mcx314LowSpeedDrive : std::uint8_t { at_v, at_sv };
-enum class Mcx314SoftwareLimits : std::uint8_t { beyond, at };
-
-/// Settings of a card of type mcx314.
-struct Mcx314Settings {
-    Mcx314Variant variant = Mcx314Variant::mcx314;
-    Mcx314LowSpeedDrive low_speed_drive = Mcx314LowSpeedDrive::at_v;
-    Mcx314SoftwareLimits software_limits = Mcx314SoftwareLimits::beyond;
-    std::int64_t ao_after_reset = 8;     ///< 0 .. 65,535 pulses
-    std::int64_t clock_hz = 16'000'000;  ///< this value only: the model's tick is 125 ns
-    BusWidth bus = BusWidth::bits16;     ///< with 8 bits a register takes two accesses
-    std::int64_t bus_access_ns = 250;    ///< duration of an access, 0 .. 100,000 ns
-    std::int64_t host_latency_us = 50;   ///< 0 .. 10,000 us from an interrupt to the host's first access
-};
-
-/// A card. Only the settings of its own type apply. Default values of the members are the rack file's defaults.
+/// A card. Default values of the members and of its settings are the rack file's defaults.
 struct RackCard {
-    std::string name;             ///< name in wires: letters, digits, '_'
-    std::string type = "mcx314";  ///< a name in card_type_names()
-    std::optional<int> slot;      ///< 0 .. 20; always set by read_rack (the lowest free slot if the file gives none)
-    SettingsBox settings;         ///< those of a type that its plug-in alone knows
-    Mcx314Settings mcx314;
+    std::string name;         ///< name in wires: letters, digits, '_'
+    std::string type;         ///< a name in card_type_names(); empty: unknown, which is an error of the file
+    std::optional<int> slot;  ///< 0 .. 20; always set by read_rack (the lowest free slot if the file gives none)
+    SettingsBox settings;     ///< an object that only the plug-in of its type knows
 };
 
 // ---- Axes

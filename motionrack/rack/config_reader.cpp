@@ -67,14 +67,15 @@ class RackReader {
         const TomlNode* cards = root_.find("card");
         if (cards == nullptr || (cards->type == TomlType::table && cards->children.empty())) {
             problems_.error(cards != nullptr ? cards->key_location : TextPosition{1, 1},
-                            "The rack has no card; add a section [card.motion] with type = \"mcx314\".");
+                            fmt::format("The rack has no card; add a section [card.motion] with type = \"{}\".",
+                                        card_type_names().front()));
             return;
         }
         if (cards->type != TomlType::table) {
             problems_.error(cards->value_location,
-                            fmt::format("card is {}, but each card needs a name: write card.motion = \"mcx314\" "
+                            fmt::format("card is {}, but each card needs a name: write card.motion = \"{}\" "
                                         "or a section [card.motion].",
-                                        type_name(cards->type)));
+                                        type_name(cards->type), card_type_names().front()));
             return;
         }
         if (cards->children.size() > slot_count) {
@@ -93,7 +94,7 @@ class RackReader {
         card.name = node.key;
         check_card_name(node);
         if (node.type == TomlType::text) {
-            TomlNode as_table;  // card.c1 = "mcx314" is short for [card.c1] with that type
+            TomlNode as_table;  // card.c1 = "TYPE" is short for [card.c1] with that type
             as_table.key_location = node.key_location;
             as_table.children.push_back(node);
             as_table.children.back().key = "type";
@@ -319,7 +320,8 @@ RackReading read_rack(std::string_view path_or_text) {
     if (path_or_text.find_first_of("\n=") != std::string_view::npos) return read_rack_text(path_or_text);
     if (path_or_text.empty()) {
         return only_error(Error{ErrorKind::invalid_input,
-                                "No rack file was named; give a path, or text such as card.c1 = \"mcx314\".",
+                                fmt::format("No rack file was named; give a path, or text such as card.c1 = \"{}\".",
+                                            card_type_names().front()),
                                 {},
                                 {}});
     }

@@ -99,11 +99,12 @@ std::string safety_text(const RackSafety& safety) {
 std::string rack_file_reference() {
     const RackConfig rack;
     const RackCard card;
-    std::string out =
+    std::string out = fmt::format(
         "# The rack file\nTOML. `motionrack new` writes one to start from. Unknown keys, wrong types and values out of "
-        "range are errors; all are reported at once, with line and column. Text such as `card.c1 = \"mcx314\"` (only a "
+        "range are errors; all are reported at once, with line and column. Text such as `card.c1 = \"{}\"` (only a "
         "card, by its type) is a rack, too: default settings and four ideal axes X Y Z A, 1000 pulses and 1000 encoder "
-        "counts a mm or degree.\n\n";
+        "counts a mm or degree.\n\n",
+        card_type_names().front());
     out += "## [rack]\n" + fields_table(rack_fields(), &rack, &rack);
     out +=
         "## [card.NAME]\nOne section a card; NAME is yours: letters, digits, `_`. The card types are described "

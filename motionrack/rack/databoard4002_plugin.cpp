@@ -54,6 +54,9 @@ constexpr std::array<DefaultWire, 10> databoard4002_wires = {{
     {"esl", "limit_minus"},
 }};
 
+constexpr std::array<std::string_view, 2> databoard4002_template_wires = {
+    "# \"motion.ref\" = \"X.limit_minus\"        # the end stop is also the reference",
+    "# \"motion.esr\" = \"open\"                 # a broken wire: the input is active"};
 constexpr std::array<StopPin, 3> databoard4002_stop_pins = {{
     {"ems", StopSource::emergency_stop, 1},
     {"esr", StopSource::limit_switch, 1, +1},
@@ -206,6 +209,7 @@ constinit const CardPlugin databoard4002_plugin = {
              .select = databoard4002_select,
              .position_loop = true,
              .flaw = databoard4002_flaw,
+             .template_wires = databoard4002_template_wires,
              .stop_pins = databoard4002_stop_pins},
     .map = db::card_map,
     .make = make_databoard4002,

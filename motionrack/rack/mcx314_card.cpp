@@ -24,13 +24,13 @@ class Mcx314Card final : public MotionCard {
     Mcx314Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log)
         : name_(config.name),
           kernel_(kernel),
-          narrow_(config.mcx314.bus == BusWidth::bits8),
-          byte_access_(nanoseconds(config.mcx314.bus_access_ns)),
+          narrow_(mcx314_in(config).bus == BusWidth::bits8),
+          byte_access_(nanoseconds(mcx314_in(config).bus_access_ns)),
           access_(narrow_ ? 2 * byte_access_ : byte_access_),
-          chip_(kernel, config.name, options_of(config.mcx314)),
+          chip_(kernel, config.name, options_of(mcx314_in(config))),
           port_(kernel, registers_on_bus(), chip_.id(), chip_.interrupt_wire(), access_, &log),
           driver_(port_, port_),
-          latency_(microseconds(config.mcx314.host_latency_us)) {
+          latency_(microseconds(mcx314_in(config).host_latency_us)) {
         port_.set_latency(latency_);
     }
 

@@ -91,7 +91,7 @@ constexpr std::array<Field, 8> mcx314_settings = {
 
 // At most one pulse every four clocks (R = 16,000, V = 8,000: every second tick of the halved clock).
 double mcx314_pulse_hz(const RackCard& card) {
-    return static_cast<double>(card.mcx314.clock_hz) / 4;
+    return static_cast<double>(mcx314_in(card).clock_hz) / 4;
 }
 
 // A = 8,000 at multiple 500: 8,000 * 125 * 500 pulses/s2.
@@ -101,13 +101,20 @@ double mcx314_accel_hz_s(const RackCard&) {
 
 // The inputs are sampled at every second clock; shorter states are missed.
 double mcx314_encoder_hz(const RackCard& card) {
-    return static_cast<double>(card.mcx314.clock_hz) / 2;
+    return static_cast<double>(mcx314_in(card).clock_hz) / 2;
 }
 
 void* mcx314_of(RackCard& card) {
-    return &card.mcx314;
+    return &card.settings.edit<Mcx314Settings>();
 }
 
+bool mcx314_latches(const RackCard& card) {
+    return mcx314_in(card).variant == Mcx314Variant::mcx314as;
+}
+
+constexpr std::array<std::string_view, 2> mcx314_template_wires = {
+    "# \"motion.xin1\" = \"X.home\"              # the home switch of X also at stop input 1",
+    "# \"motion.xin2\" = \"open\"                # the encoder's index not connected"};
 constexpr std::array<Lamp, 3> mcx314_lamps = {{{"alarm", "alarm", 0}, {"capture", "in3", 0}, {"compare", "out4"}}};
 constexpr std::array<StopPin, 4> mcx314_stop_pins = {{
     {"emgn", StopSource::emergency_stop},
@@ -120,8 +127,49 @@ constexpr std::array<std::string_view, 4> mcx314_stops = {"in0", "in1", "in2", "
 std::unique_ptr<FunctionLibrary> mcx314_library(const CardBus& bus) {
     return std::make_unique<mcx314::Library>(*bus.registers, *bus.host);
 }
+constexpr std::string_view mcx314_axes = "XYZU";
+
+struct ValueCommand {
+    std::string_view name;
+    const CommandInfo& command;
+    std::string_view meaning;
+};
+
+constexpr ValueCommand mcx314_values[] = {
+    {"LP", command_named(mcx314::map::commands, "READ_LP"), "pulses sent"},
+    {"EP", command_named(mcx314::map::commands, "READ_EP"), "encoder counts"},
+    {"CV", command_named(mcx314::map::commands, "READ_CV"), "present speed, units of V"},
+    {"CA", command_named(mcx314::map::commands, "READ_CA"), "present acceleration, units of A"},
+};
+
+bool is_read_by_the_host(const RegisterInfo& reg) {
+    return reg.access != Access::write && reg.bank.empty();
+}
+
+/// All RR registers, and LP, EP, CV, CA of each axis. Writes WR0 only, with NOP (to select the axis) and read commands.
+/// These change no motion, only RR6, RR7 and the selected axis; the card must not be used by others meanwhile.
+/// `clearing`: also reads RR3, which clears its flags and releases the interrupt line.
 Result<RegisterView> mcx314_view(const CardBus& bus, bool clearing) {
-    return view_mcx314(*bus.registers, clearing);
+    RegisterPort& port = *bus.registers;
+    RegisterView view;
+    const std::span<const RegisterInfo> registers = mcx314::card_map().registers;
+    for (const RegisterInfo& reg : registers)
+        if (is_read_by_the_host(reg) && !reg.per_axis) view.registers.push_back({&reg, "", port.read(reg.offset)});
+    for (unsigned axis = 0; axis < mcx314_axes.size(); ++axis) {
+        const std::string letter(1, mcx314_axes[axis]);
+        const unsigned chosen = 0x0100u << axis;
+        port.write(mcx314::reg::WR0, static_cast<std::uint16_t>(chosen | mcx314::cmd::NOP));
+        for (const RegisterInfo& reg : registers)
+            if (is_read_by_the_host(reg) && reg.per_axis && (clearing || reg.access != Access::read_clears))
+                view.registers.push_back({&reg, letter, port.read(reg.offset)});
+        for (const auto& [name, command, meaning] : mcx314_values) {
+            port.write(mcx314::reg::WR0, static_cast<std::uint16_t>(chosen | command.code));
+            const std::uint32_t low = port.read(mcx314::reg::RR6);
+            const std::uint32_t high = command.data_bytes > 2 ? port.read(mcx314::reg::RR7) : 0;
+            view.values.push_back({name, letter, static_cast<std::int32_t>(high << 16 | low), meaning});
+        }
+    }
+    return view;
 }
 
 void clear_general_outputs(Rack& rack, const StopReaction&) {
@@ -166,7 +214,10 @@ constinit const CardPlugin mcx314_plugin = {.type = {.name = "mcx314",
                                                      .home_pins = mcx314_stops,
                                                      .index_pins = mcx314_stops,
                                                      .lamps = mcx314_lamps,
+                                                     .template_wires = mcx314_template_wires,
                                                      .probe_pin = "in3",
+                                                     .latches = mcx314_latches,
+                                                     .latches_with = "variant = \"mcx314as\"",
                                                      .stop_pins = mcx314_stop_pins},
                                             .map = mcx314::card_map,
                                             .make = make_mcx314,

@@ -44,24 +44,29 @@ void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
     for (const RackAxis& axis : config.axes) {
         const RackCard* card = config.card(axis.card);
         if (card == nullptr || card->type.empty()) continue;  // already reported
-        if (card->type == "mcx314" && card->mcx314.variant == Mcx314Variant::mcx314as) continue;
+        if (const CardType* type = find_card_type(card->type); can_latch(*type) && type->latches(*card)) continue;
+        const CardType& needed = *find_card_type(card_types_that(can_latch).front());
         problems.error(node.key_location, fmt::format("The rack has a probe, but card {} of axis {} cannot catch "
-                                                      "positions; it must be of type mcx314 with variant = "
-                                                      "\"mcx314as\".",
-                                                      card->name, axis.letter));
+                                                      "positions; it must be of type {} with {}.",
+                                                      card->name, axis.letter, needed.name, needed.latches_with));
         break;
     }
     config.probe = probe;
 }
 
+std::string probe_doc() {
+    const CardType& type = *find_card_type(card_types_that(can_latch).front());
+    return fmt::format(
+        "A touch probe for G38.2 to G38.5 and the workpiece that it touches, in machine coordinates. Without this "
+        "section the rack has no probe. Where an axis has one bound or none the workpiece is unbounded there; without "
+        "any bound the probe touches nothing. The axes must be on a card of type {} with `{}`; by default its wire "
+        "`probe` leads to the input `{}` of each of their channels.",
+        type.name, type.latches_with, type.probe_pin);
+}
+
 constexpr std::array<std::string_view, 1> probe_keys = {"probe"};
 constexpr std::array<PartSection, 1> probe_section_rows = {{
-    {"[probe]",
-     "A touch probe for G38.2 to G38.5 and the workpiece that it touches, in machine coordinates. Without this section "
-     "the rack has no probe. Where an axis has one bound or none the workpiece is unbounded there; without any bound "
-     "the probe touches nothing. The axes must be on a card of type mcx314 with `variant = \"mcx314as\"`; by default "
-     "its wire `probe` leads to the input `in3` of each of their channels.",
-     rows_of<probe_table>, default_object<RackProbe>},
+    {"[probe]", {}, rows_of<probe_table>, default_object<RackProbe>, probe_doc},
 }};
 
 }  // namespace

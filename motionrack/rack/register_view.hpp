@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <motionrack/base/card_map.hpp>
-#include <motionrack/base/port.hpp>
-#include <motionrack/base/result.hpp>
 #include <string>
 #include <vector>
 
@@ -29,11 +27,6 @@ struct RegisterView {
     std::vector<RegisterSnapshot> registers;
     std::vector<ValueSnapshot> values;
 };
-
-/// Reads an MCX314: all RR registers, and LP, EP, CV, CA of each axis. Writes WR0 only, with NOP (to select the axis)
-/// and read commands. These change no motion, only RR6, RR7 and the selected axis; the card must not be used by others
-/// meanwhile. `clearing`: also reads RR3, which clears its flags and releases the interrupt line.
-RegisterView view_mcx314(RegisterPort& port, bool clearing);
 
 /// Formats the view for a terminal; fields with value 0 are left out unless `all`.
 std::string view_text(const RegisterView& view, bool all);

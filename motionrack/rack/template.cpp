@@ -154,8 +154,9 @@ void write_head(Writer& out, const RackConfig& config, const std::string& card_n
     out.fields(type.settings, type.settings_of(card), type.settings_of(scratch), "");
 }
 
-/// `type`: type of its only card, called motion.
-std::string write(RackConfig config, std::string_view card_type = "mcx314") {
+/// Its only card, called motion, is of the first type of which this holds.
+std::string write(RackConfig config, bool (*holds)(const CardType& type) = has_channels) {
+    const std::string_view card_type = card_types_that(holds).front();
     const CardType& type = *find_card_type(card_type);
     Writer out;
     write_head(out, config, "motion", card_type);
@@ -166,13 +167,7 @@ std::string write(RackConfig config, std::string_view card_type = "mcx314") {
     out.section("safety", "safety contacts: the emergency stop and a door");
     out.fields(safety_fields(), &config.safety, &defaults.safety, "");
     out.section("wires", "only what differs from the default rule: input = output that drives it, or \"open\"");
-    if (type.channels.empty()) {
-        out.line("# \"motion.ref\" = \"X.limit_minus\"        # the end stop is also the reference");
-        out.line("# \"motion.esr\" = \"open\"                 # a broken wire: the input is active");
-    } else {
-        out.line("# \"motion.xin1\" = \"X.home\"              # the home switch of X also at stop input 1");
-        out.line("# \"motion.xin2\" = \"open\"                # the encoder's index not connected");
-    }
+    for (const std::string_view line : type.template_wires) out.line(line);
     return out.take();
 }
 
@@ -221,7 +216,7 @@ Result<std::string> rack_template(std::string_view variant) {
     if (variant == "router") return write(router());
     if (variant == "stage") return write(stage());
     if (variant == "single") return write(single());
-    if (variant == "carriage") return write(carriage(), "databoard4002");
+    if (variant == "carriage") return write(carriage(), positions_by_itself);
     if (variant == "marking") return marking();
     std::vector<std::string_view> names;
     for (const TemplateVariant& known : variants) names.push_back(known.name);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/mcx314_card.hpp>
 #include <motionrack/rack/quantities.hpp>
 #include <motionrack/rack/reported_condition.hpp>
 #include <motionrack/rack/template.hpp>
@@ -93,7 +94,7 @@ py::dict channels_of(const rack::RackConfig& config) {
     for (const rack::PulseLink& link : config.pulse_links) {
         const rack::RackCard& card = config.cards[static_cast<std::size_t>(link.card)];
         const rack::RackAxis& axis = config.axes[static_cast<std::size_t>(link.axis)];
-        if (card.type == "mcx314" && card.mcx314.variant == rack::Mcx314Variant::mcx314 && !axis.servo)
+        if (card.type == "mcx314" && rack::mcx314_in(card).variant == rack::Mcx314Variant::mcx314 && !axis.servo)
             out[py::str(std::string(1, axis.letter))] =
                 py::make_tuple(card.name, fmt::format("{}.LP", "xyzu"[link.channel]), axis.max_pulse_hz());
     }

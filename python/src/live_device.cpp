@@ -13,7 +13,7 @@ Result<std::unique_ptr<LiveMcx314>> LiveMcx314::open(const live::PortSpec& spec,
 }
 
 Result<rack::RegisterView> LiveMcx314::view(bool clearing) {
-    return rack::view_mcx314(*port_, clearing);
+    return rack::mcx314_plugin.view({.registers = port_.get()}, clearing);
 }
 
 Result<std::unique_ptr<LiveDataboard4002>> LiveDataboard4002::open(const live::PortSpec& spec, Interrupt& host,

@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <motionrack/rack/config.hpp>
+#include <motionrack/rack/mcx314_card.hpp>
 #include <mutex>
 #include <tests/invariants/c_sessions.hpp>
 #include <tests/invariants/session_laws.hpp>
@@ -78,7 +79,8 @@ std::vector<NamedAxis> watched_axes(const rack::RackConfig& config) {
     for (const rack::PulseLink& link : config.pulse_links) {
         const rack::RackCard& card = config.cards[static_cast<std::size_t>(link.card)];
         const rack::RackAxis& axis = config.axes[static_cast<std::size_t>(link.axis)];
-        if (card.type != "mcx314" || card.mcx314.variant != rack::Mcx314Variant::mcx314 || axis.servo) continue;
+        if (card.type != "mcx314" || rack::mcx314_in(card).variant != rack::Mcx314Variant::mcx314 || axis.servo)
+            continue;
         out.push_back({{axis.letter, axis.pulses_per_unit(), axis.max_velocity, axis.max_accel, axis.max_velocity_step},
                        card.name,
                        fmt::format("{}.LP", "xyzu"[link.channel]),

@@ -13,6 +13,7 @@
 #include <limits>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/mcx314_card.hpp>
 #include <motionrack/rack/part_catalogue.hpp>
 #include <motionrack/rack/template.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>
@@ -162,7 +163,7 @@ TEST(RackKeys, TakesWholeNumbersWrittenWithAnExponentOrAPoint) {
         good(rack_with("microsteps = 8.0\nlead_mm = 10\n") + "[card.n]\ntype = \"mcx314\"\nbus_access_ns = 1.25e2\n");
     EXPECT_EQ(config.axes[0].microsteps, 8);
     EXPECT_EQ(config.axes[0].lead_mm, 10.0);
-    EXPECT_EQ(config.cards[1].mcx314.bus_access_ns, 125);
+    EXPECT_EQ(mcx314_in(config.cards[1]).bus_access_ns, 125);
 }
 
 // ---- Templates and the reference page

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <motionrack/rack/mcx314_card.hpp>
 #include <motionrack/rack/test/lossless_support.hpp>
 #include <random>
 
@@ -159,7 +160,7 @@ inline RackConfig rack_of(ChordMaker& random, const std::string& profile) {
     config.controller.profile = profile;
     const auto microsteps = std::array<std::int64_t, 4>{16, 16, 64, 32}[static_cast<std::size_t>(random.pick(4))];
     set_microsteps(config, microsteps);
-    Mcx314Settings& card = config.cards[0].mcx314;
+    Mcx314Settings& card = config.cards[0].settings.edit<Mcx314Settings>();
     card.host_latency_us = std::array<std::int64_t, 4>{50, 0, 20, 200}[static_cast<std::size_t>(random.pick(4))];
     card.bus_access_ns = std::array<std::int64_t, 3>{250, 1'000, 60}[static_cast<std::size_t>(random.pick(3))];
     return config;
@@ -224,8 +225,8 @@ inline void drive_one(std::uint64_t seed, Arcs arcs = Arcs::none) {
     std::string reported;
     for (const auto& [at, what] : disturbed.wishes) reported += fmt::format(" {}@{:.4f}s", what, at);
     SCOPED_TRACE(fmt::format("MOTIONRACK_SEED={} {} microsteps {}, latency {} us, access {} ns, wishes{}", seed,
-                             profile, config.axes[0].microsteps, config.cards[0].mcx314.host_latency_us,
-                             config.cards[0].mcx314.bus_access_ns, reported));
+                             profile, config.axes[0].microsteps, mcx314_in(config.cards[0]).host_latency_us,
+                             mcx314_in(config.cards[0]).bus_access_ns, reported));
     const test::LimitFactors known = test::larger_of(test::known_breaches("random_chords"), of_random_profile(config));
     const Driven driven = drive_with(config, program.text, disturbed.wishes, {}, known, known.max_accel);
     test::ReachedFactors::of_program().add("random_chords", {1, driven.worst.parts});
@@ -256,7 +257,8 @@ inline void drive_late(std::uint64_t seed) {
     std::string reported;
     for (const auto& [at, length] : waits) reported += fmt::format(" {:.4f} s at {:.4f} s", length, at);
     SCOPED_TRACE(fmt::format("MOTIONRACK_SEED={} {} latency {} us, access {} ns, late{}", seed, profile,
-                             config.cards[0].mcx314.host_latency_us, config.cards[0].mcx314.bus_access_ns, reported));
+                             mcx314_in(config.cards[0]).host_latency_us, mcx314_in(config.cards[0]).bus_access_ns,
+                             reported));
     std::size_t next = 0;
     const auto be_late = [&](Rack& rack) {
         if (next == waits.size() || to_seconds(rack.kernel().now()) < waits[next].first) return;

@@ -1,6 +1,7 @@
 // The controller itself causes no step loss, for any request during a program and for moves of any length. The pulse
 // rate on the wires never changes by more than the motors can follow.
 #include <algorithm>
+#include <motionrack/rack/mcx314_card.hpp>
 
 #include "lossless_support.hpp"
 
@@ -103,7 +104,7 @@ TEST_P(Lossless, AReliefInFineStepsLosesNoPulse) {
 
 TEST_P(Lossless, ASpiralOnASlowBusLosesNoPulse) {
     RackConfig config = router(GetParam());
-    config.cards[0].mcx314.bus_access_ns = 1'000;
+    config.cards[0].settings.edit<Mcx314Settings>().bus_access_ns = 1'000;
     expect_undisturbed(config, spiral(0.2, 200), 5.2);
 }
 
@@ -119,7 +120,7 @@ TEST_P(Lossless, AHostWithoutLatencyAndASlowOneLoseNoPulse) {
     for (const std::int64_t latency : {0, 400}) {
         SCOPED_TRACE(latency);
         RackConfig config = router(GetParam());
-        config.cards[0].mcx314.host_latency_us = latency;
+        config.cards[0].settings.edit<Mcx314Settings>().host_latency_us = latency;
         expect_undisturbed(config, spiral(0.1, 60), 4.5);
     }
 }
@@ -156,7 +157,7 @@ TEST_P(Lossless, AnArcDeceleratesInTimeFromTheRateOfADiagonalLine) {
         "G2 X147.7299 Y99.3469 I-1.6146 J-0.8110\nM2\n";
     RackConfig config = router(GetParam());
     set_microsteps(config, 64);
-    config.cards[0].mcx314.host_latency_us = 200;
+    config.cards[0].settings.edit<Mcx314Settings>().host_latency_us = 200;
     expect_lossless(drive_with(config, text, {}));
 }
 
@@ -284,7 +285,7 @@ TEST_P(Lossless, ALateHostContinuesAtTheProgrammedFeed) {
 
 TEST(Host, PollsAxesEveryFewMicrosecondsOnlyDuringDeceleration) {
     RackConfig config = router();
-    config.cards[0].mcx314.bus_access_ns = 60;
+    config.cards[0].settings.edit<Mcx314Settings>().bus_access_ns = 60;
     constexpr double asked = 0.5;
     double seconds = 0, reads = 0;
     const Driven driven = drive_with(config, "G1 X200 F6000\nM2\n", {{asked, "flag"}}, [&](Rack& rack) {

@@ -80,7 +80,7 @@ TEST_F(RegisterViews, AreAvailableAsJson) {
 
 TEST_F(RegisterViews, WriteNothingButNopsAndReadCommands) {
     Empty slot;
-    (void)view_mcx314(slot, false);
+    ASSERT_TRUE(mcx314_plugin.view({.registers = &slot}, false));
     for (const auto& [offset, value] : slot.writes) {
         EXPECT_EQ(offset, mcx314::reg::WR0);
         const unsigned code = value & 0xFFu;
