@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <motionrack/base/card_map.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/stop_source.hpp>
@@ -13,7 +14,15 @@
 #include <string_view>
 #include <vector>
 
+namespace motionrack::sim {
+class Kernel;
+class PositionFunction;
+}  // namespace motionrack::sim
+
 namespace motionrack::rack {
+
+class Card;
+class CardProcessor;
 
 /// Meaning of a pin's level.
 enum class PinKind : std::uint8_t {
@@ -65,7 +74,10 @@ struct StageDrive {
     int outputs = 0;  ///< analog outputs, numbered from 0; 0: the type drives no stage
     /// Addresses of the scales that the card reads, in order; empty if its list is invalid.
     std::vector<int> (*scales)(const RackCard& card) = nullptr;
-    double (*period_us)(const RackCard& card) = nullptr;  ///< frame period
+    double (*period_us)(const RackCard& card) = nullptr;                                     ///< frame period
+    std::unique_ptr<CardProcessor> (*processor)(sim::Kernel& kernel, Card& card) = nullptr;  ///< closes its loops
+    /// Connects a stage's scale to an input of the decoder that the card reads.
+    void (*connect_scale)(Card& card, int input, sim::PositionFunction& scale) = nullptr;
 };
 
 /// For cards that move no axis.

@@ -301,6 +301,14 @@ std::unique_ptr<Card> make_grating_decoder(sim::Kernel& kernel, const RackCard& 
     return std::make_unique<DecoderCard>(kernel, config, log, bus_of(kernel, before));
 }
 
+std::unique_ptr<CardProcessor> stage_processor(sim::Kernel& kernel, Card& card) {
+    return std::make_unique<CardProcessor>(kernel, card.name() + ".processor", dynamic_cast<GratingCard&>(card).card());
+}
+
+void connect_scale(Card& card, int input, sim::PositionFunction& scale) {
+    dynamic_cast<GratingCard&>(card).bus()->decoders()[0]->connect(input, &scale);
+}
+
 /// Less than half a period, in steps of 0.1 ns.
 double max_frame_jitter_ns(const RackCard& card) {
     return std::min(grating_bus_in(card).period_us * 500 - 0.1, max_push);
@@ -349,7 +357,11 @@ constinit const CardPlugin grating_bus_plugin = {
              .settings = grating_bus_settings,
              .settings_of = grating_bus_settings_of,
              .flaw = grating_bus_flaw,
-             .stage_drive = {gb::output_count, wanted_scales, frame_period_us}},
+             .stage_drive = {.outputs = gb::output_count,
+                             .scales = wanted_scales,
+                             .period_us = frame_period_us,
+                             .processor = stage_processor,
+                             .connect_scale = connect_scale}},
     .map = gb::card_map,
     .make = make_grating_bus,
     .no_live_port = no_grating_bus_port,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/rack/config_parts.hpp>
-#include <motionrack/rack/grating_card.hpp>
 #include <motionrack/rack/part_catalogue.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/trace_hash_log.hpp>
@@ -192,13 +191,19 @@ void Rack::build_wires() {
         if (is_contact(input)) junctions_->join(no_current, wire_of(input), true);
 }
 
+namespace {
+
+/// read_rack has checked that its type drives stages.
+const StageDrive& drive_of(const RackConfig& config, const std::string& card) {
+    return find_card_type(config.card(card)->type)->stage_drive;
+}
+
+}  // namespace
+
 CardProcessor& Rack::processor_of(const std::string& card) {
     for (const auto& [name, processor] : processors_)
         if (name == card) return *processor;
-    grating_bus::Card* found = grating_card_of(*this, card);
-    MOTIONRACK_ASSERT(found != nullptr);  // checked by read_rack
-    return *processors_.emplace_back(card, std::make_unique<CardProcessor>(kernel_, card + ".processor", *found))
-                .second;
+    return *processors_.emplace_back(card, drive_of(config_, card).processor(kernel_, *this->card(card))).second;
 }
 
 void Rack::build_stages() {
@@ -208,7 +213,7 @@ void Rack::build_stages() {
         stage.motor = std::make_unique<parts::LinearStage>(kernel_, config.name, motor_settings(config));
         stage.scale =
             std::make_unique<parts::LinearScale>(kernel_, config.name + ".scale", *stage.motor, scale_settings(config));
-        grating_bus_of(*this)->decoders()[0]->connect(static_cast<int>(config.input), stage.scale.get());
+        drive_of(config_, config.card).connect_scale(*card(config.card), static_cast<int>(config.input), *stage.scale);
         junctions_->join(kernel_.find_wire(fmt::format("{}.vout{}", config.card, config.output)),
                          stage.motor->drive_wire(), false);
         if (config.servo) {

@@ -5,7 +5,7 @@
 //                       ▲   wires (connections) ◄── switches, cams, index, emergency stop
 //                       └── VirtualPort ◄── driver ◄── axes ◄── controller
 //   belts, tables ──encoders, words──► card of a laser ──x, y, gate──► scan heads over them
-//   grating bus: cards ──frames──► processors ──volts──► stages ──scales──► decoder
+//   stages: cards ──frames──► processors ──volts──► stages ──scales──► decoder
 #pragma once
 
 #include <cmath>

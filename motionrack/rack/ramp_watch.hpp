@@ -6,9 +6,9 @@
 //   windows of 1 to 8 ms, and the rate before a standstill: see JumpLaw ──► instant of the last velocity step of each
 //   axis ──► an axis that jumped
 //
-// A card that stops on a command or at a limit switch decelerates with a ramp. The chip of an MCX314 that follows a
-// path ends its pulses at the end of the current segment, at any velocity. A card may stop before its driver knows, and
-// without a stop in force, where a switch was active before the motion began: see look_back().
+// A card that stops on a command or at a limit switch decelerates with a ramp. A chip that follows a path by segments
+// ends its pulses at the end of the current one, at any velocity. A card may stop before its driver knows, and without
+// a stop in force, where a switch was active before the motion began: see look_back().
 #pragma once
 
 #include <array>
