@@ -4,6 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <motionrack/rack/catalogue.hpp>
+#include <motionrack/rack/databoard4002_card.hpp>
+#include <motionrack/rack/grating_card.hpp>
+#include <motionrack/rack/ioflex02_card.hpp>
+#include <motionrack/rack/mcx314_card.hpp>
+#include <motionrack/rack/rtc5_card.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::rack {

@@ -167,7 +167,8 @@ struct CardFault {
     double (*max_of)(const RackCard& card) = nullptr;  ///< replaces max; may be nullptr
 };
 
-/// One type of card, complete. Each is one object, in the file of its card (NAME_plugin.cpp or NAME_card.cpp).
+/// One type of card, complete. Each is one object, in the file of its card (NAME_plugin.cpp or NAME_card.cpp, declared
+/// in NAME_card.hpp).
 struct CardPlugin {
     CardType type;            ///< what a rack file can say of it
     const CardMap& (*map)();  ///< registers, commands, states and pins
@@ -187,13 +188,6 @@ struct CardPlugin {
     std::span<const StopReaction> stop_reactions = {};
     std::span<const CardFault> faults = {};
 };
-
-extern const CardPlugin mcx314_plugin;
-extern const CardPlugin databoard4002_plugin;
-extern const CardPlugin ioflex02_plugin;
-extern const CardPlugin grating_bus_plugin;
-extern const CardPlugin grating_decoder_plugin;
-extern const CardPlugin rtc5_plugin;
 
 /// All types of card, in the order of the reference page.
 std::span<const CardPlugin* const> card_plugins();

@@ -11,6 +11,8 @@
 
 namespace motionrack::rack {
 
+extern const CardPlugin databoard4002_plugin;
+
 /// How O1 and O2 of a DataBoard 4002 are counted: edges per period of the encoder.
 enum class Databoard4002CountMode : std::uint8_t { quadrature_4, quadrature_2, quadrature_1, up_down };
 

@@ -7,6 +7,9 @@
 
 namespace motionrack::rack {
 
+extern const CardPlugin grating_bus_plugin;
+extern const CardPlugin grating_decoder_plugin;
+
 /// Returns the rack's bus; nullptr if the rack has none.
 grating_bus::Bus* grating_bus_of(Rack& rack);
 /// Returns the motion card of that name; nullptr if unknown.

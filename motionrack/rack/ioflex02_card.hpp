@@ -8,6 +8,8 @@
 
 namespace motionrack::rack {
 
+extern const CardPlugin ioflex02_plugin;
+
 /// Returns nullptr if the rack has no such card or the card is of another type.
 ioflex02::Card* ioflex02_card_of(Rack& rack, std::string_view name);
 

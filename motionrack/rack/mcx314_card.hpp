@@ -8,6 +8,8 @@
 
 namespace motionrack::rack {
 
+extern const CardPlugin mcx314_plugin;
+
 /// Width of a card's bus.
 enum class BusWidth : std::uint8_t { bits16, bits8 };
 /// Chip variants of a card of type mcx314.

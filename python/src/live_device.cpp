@@ -1,7 +1,8 @@
 // Real cards by kind.
 #include <fmt/format.h>
 
-#include <motionrack/rack/register_view.hpp>
+#include <motionrack/rack/databoard4002_card.hpp>
+#include <motionrack/rack/mcx314_card.hpp>
 #include <python/src/live_device.hpp>
 
 namespace motionrack::python {

@@ -4,6 +4,8 @@
 
 #include <motionrack/cards/databoard4002/driver/driver.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
+#include <motionrack/rack/databoard4002_card.hpp>
+#include <motionrack/rack/mcx314_card.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/template.hpp>
 #include <nlohmann/json.hpp>
