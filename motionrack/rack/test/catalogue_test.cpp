@@ -1,7 +1,10 @@
-// Live ports of the types of card: which have one, and the reasons of those that have none.
+// Types of card: what they can do, who names them; which have a live port, and the reasons of those that have none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
 #include <motionrack/rack/catalogue.hpp>
 #include <regex>
 #include <string>
@@ -12,6 +15,7 @@ namespace motionrack::rack {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -49,6 +53,36 @@ TEST(CardPlugins, WithoutALivePortAreOnThePageOfLivePortsWithTheirReasons) {
         std::regex_replace(text_of(source_root / "docs/howto/live-port.md"), std::regex(R"(\s+)"), " ");
     for (const CardPlugin* plugin : card_plugins())
         EXPECT_THAT(page, HasSubstr(std::string(plugin->no_live_port))) << plugin->type.name;
+}
+
+TEST(CardPlugins, AreFoundByWhatTheyCanDo) {
+    EXPECT_THAT(card_types_that(drives_stages), ElementsAre("grating_bus"));
+    EXPECT_THAT(card_types_that(drives_scan_heads), ElementsAre("rtc5"));
+    EXPECT_THAT(card_types_that(positions_by_itself), ElementsAre("databoard4002"));
+    EXPECT_THAT(card_types_that(can_latch), ElementsAre("mcx314"));
+    EXPECT_EQ(card_types_text(has_channels), "mcx314");
+    EXPECT_EQ(card_types_text([](const CardType& type) { return type.position_loop || type.marks; }),
+              "databoard4002 or rtc5");
+    EXPECT_EQ(card_types_text([](const CardType&) { return false; }), "");
+}
+
+TEST(CardPlugins, AreNamedByTheCatalogueAndByTheirOwnFilesAlone) {
+    // Frames and stages are those of the grating bus.
+    constexpr std::array<std::string_view, 7> own = {"mcx314_", "databoard4002_", "ioflex02_", "rtc5_",
+                                                     "grating", "frame_",         "stage."};
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(source_root / "motionrack/rack")) {
+        const std::string file = entry.path().filename().string();
+        if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
+        if (file == "catalogue.cpp" ||
+            std::any_of(own.begin(), own.end(), [&](std::string_view begin) { return file.rfind(begin, 0) == 0; }))
+            continue;
+        ++files;
+        const std::string text = text_of(entry.path());
+        for (const std::string_view type : card_type_names())
+            EXPECT_EQ(text.find(type), std::string::npos) << file << " names " << type;
+    }
+    EXPECT_GT(files, 50);
 }
 
 }  // namespace
