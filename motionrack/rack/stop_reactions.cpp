@@ -42,8 +42,8 @@ constexpr std::array reactions = {
 /// In the order in which the latch executes them.
 template <class Visitor>
 void each_reaction(const Visitor& visit) {
-    for (auto order = StopOrder::axes; order <= StopOrder::spindle;
-         order = static_cast<StopOrder>(static_cast<int>(order) + 1)) {
+    for (int place = 0; place <= static_cast<int>(StopOrder::spindle); ++place) {
+        const auto order = static_cast<StopOrder>(place);
         const auto visit_those = [&](std::span<const StopReaction> rows) {
             for (const StopReaction& reaction : rows)
                 if (reaction.order == order) visit(reaction);
