@@ -6,6 +6,7 @@
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/databoard4002_card.hpp>
 #include <motionrack/rack/grating_card.hpp>
+#include <motionrack/rack/io8255_card.hpp>
 #include <motionrack/rack/ioflex02_card.hpp>
 #include <motionrack/rack/mcx314_card.hpp>
 #include <motionrack/rack/rtc5_card.hpp>
@@ -15,13 +16,14 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr std::array<const CardPlugin*, 6> plugins = {
+constexpr std::array<const CardPlugin*, 7> plugins = {
     &mcx314_plugin,           //
     &databoard4002_plugin,    //
     &ioflex02_plugin,         //
     &grating_bus_plugin,      //
     &grating_decoder_plugin,  //
-    &rtc5_plugin,
+    &rtc5_plugin,             //
+    &io8255_plugin,
 };
 
 }  // namespace

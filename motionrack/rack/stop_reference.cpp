@@ -60,9 +60,9 @@ releases it:
 - **A reset moves nothing.** Programs and lines in progress are discarded; belts and stages stay at standstill until
   the command `start_part`.
 - **A new start requires both**: the reset and a new command.
-- **No remembered word switches an output on.** An output of an MCX314 or IOFLEX02 that a stop cleared stays low until
-  the host writes its bit low, then high (or resets the card): a word that a program has kept from before the stop
-  raises nothing. The card reports the first output that stays low for this reason.
+- **No remembered word switches an output on.** A digital output of a card that a stop cleared stays low until the
+  host writes its bit low, then high (or resets the card): a word that a program has kept from before the stop raises
+  nothing. The card reports the first output that stays low for this reason.
 - `motionrack run` and `motionrack home` end with exit code 4 and the sentence of the latch; by the STOP command and
   Ctrl-C with 130.
 

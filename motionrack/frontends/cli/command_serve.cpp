@@ -227,7 +227,7 @@ void add_serve(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ServeOptions>();
     CLI::App* command = app.add_subcommand("serve", "Run a rack in real time, operated in a browser");
     command->add_option("RACK", options->rack,
-                        "rack file (default: the built-in demonstration, which has all kinds of card)");
+                        "rack file (default: the built-in demonstration, which has most kinds of card)");
     command->add_option("--port", options->port, "TCP port; 0: any free one")->capture_default_str();
     command
         ->add_option("--address", options->address,

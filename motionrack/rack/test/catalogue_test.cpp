@@ -68,8 +68,8 @@ TEST(CardPlugins, AreFoundByWhatTheyCanDo) {
 
 TEST(CardPlugins, AreNamedByTheCatalogueAndByTheirOwnFilesAlone) {
     // Frames and stages are those of the grating bus.
-    constexpr std::array<std::string_view, 7> own = {"mcx314_", "databoard4002_", "ioflex02_", "rtc5_",
-                                                     "grating", "frame_",         "stage."};
+    constexpr std::array<std::string_view, 8> own = {"mcx314_", "databoard4002_", "ioflex02_", "rtc5_",
+                                                     "io8255_", "grating",        "frame_",    "stage."};
     int files = 0;
     for (const auto& entry : std::filesystem::directory_iterator(source_root / "motionrack/rack")) {
         const std::string file = entry.path().filename().string();

@@ -77,6 +77,23 @@ Orders ioflex02(Random& random) {
     }
 }
 
+/// Modes 0 and 1 only, and strobes more often than other lines.
+Orders io8255(Random& random) {
+    const auto bit = [&] { return static_cast<double>(below(random, 2)); };
+    switch (below(random, 6)) {
+        case 0:
+            return {peek("d8", 8, static_cast<std::uint32_t>(below(random, 3)))};
+        case 1:
+            return {bus("d8", 8, static_cast<std::uint32_t>(below(random, 3)), random() & 0xFF)};
+        case 2:
+            return {bus("d8", 8, 3, random() & (below(random, 4) == 0 ? 0xBF : 0x0F))};
+        case 3:
+            return {level(fmt::format("d8.p{}{}_in", "abc"[below(random, 3)], below(random, 8)), bit())};
+        default:
+            return {level(std::array{"d8.pc2_in", "d8.pc4_in", "d8.pc6_in"}[below(random, 3)], bit())};
+    }
+}
+
 Orders rtc5(Random& random) {
     if (below(random, 3) == 0) return {peek("s", 32, 4 * static_cast<std::uint32_t>(below(random, 16)))};
     const char* const pin = std::array{"s.start_n", "s.mcbsp", "s.stop_n"}[below(random, 3)];
@@ -139,13 +156,14 @@ Orders grating_bus(Random& random) {
 }
 
 Orders any_of_them(Random& random) {
-    constexpr std::array<Orders (*)(Random&), 5> all = {&databoard4002, &ioflex02, &rtc5, &grating_bus,
-                                                        &anything_to_pulse_chip};
+    constexpr std::array<Orders (*)(Random&), 6> all = {&databoard4002, &ioflex02,    &io8255,
+                                                        &rtc5,          &grating_bus, &anything_to_pulse_chip};
     return all[below(random, all.size())](random);
 }
 
 constexpr const char* databoard4002_text = "[card.d1]\ntype = \"databoard4002\"\ncard_number = 13\n";
 constexpr const char* ioflex02_text = "[card.p1]\ntype = \"ioflex02\"\n";
+constexpr const char* io8255_text = "[card.d8]\ntype = \"io8255\"\n";
 constexpr const char* rtc5_text = R"([card.s]
 type = "rtc5"
 list_memory = 2000
@@ -217,6 +235,10 @@ std::vector<Bench> benches() {
          [](std::uint64_t seed) {
              return Story{ioflex02_text, many<&ioflex02>(seed)};
          }},
+        {"io8255",
+         [](std::uint64_t seed) {
+             return Story{io8255_text, many<&io8255>(seed)};
+         }},
         {"rtc5",
          [](std::uint64_t seed) {
              return Story{rtc5_text, many<&rtc5>(seed)};
@@ -224,7 +246,7 @@ std::vector<Bench> benches() {
         {"grating_bus", &grating_story},
         {"all_cards",
          [](std::uint64_t seed) {
-             const std::string text = mcx314_machine() + databoard4002_text + ioflex02_text + rtc5_text +
+             const std::string text = mcx314_machine() + databoard4002_text + ioflex02_text + io8255_text + rtc5_text +
                                       fmt::format(grating_bus_text, "period_us = 2000\n") + encoder_wires;
              return Story{text, many<&any_of_them>(seed)};
          }},
