@@ -71,7 +71,7 @@ class Card(MappedCard):
 
     @property
     def type(self) -> str:
-        """``"mcx314"``, ``"databoard4002"``, ``"ioflex02"``, ``"grating_bus"``, ``"grating_decoder"`` or ``"rtc5"``."""
+        """Its type, as the rack file names it: ``"mcx314"``."""
         return str(self._about["type"])
 
     @property
