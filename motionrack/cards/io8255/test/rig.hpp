@@ -26,8 +26,11 @@ struct Rig {
     int level(const std::string& pin) { return kernel.level(kernel.find_wire("c1." + pin)); }
     /// Levels of the drivers of a port.
     unsigned driven(const std::string& letter) {
+        // The drivers are the first wires of the card, port by port.
+        const auto first = sim::Kernel::index(first_wire) + std::size_t{8} * static_cast<std::size_t>(letter[0] - 'a');
         unsigned out = 0;
-        for (unsigned i = 0; i < 8; ++i) out |= static_cast<unsigned>(level("p" + letter + std::to_string(i))) << i;
+        for (std::size_t i = 0; i < 8; ++i)
+            out |= static_cast<unsigned>(kernel.level(static_cast<sim::WireId>(first + i))) << i;
         return out;
     }
     /// A negative pulse at a receiver.
@@ -51,6 +54,7 @@ struct Rig {
     sim::Kernel kernel;
     Card card;
     sim::VirtualBytePort port;
+    sim::WireId first_wire = kernel.find_wire("c1.pa0");
 };
 
 /// All ports in mode 0, outputs.
