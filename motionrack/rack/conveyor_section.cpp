@@ -80,7 +80,7 @@ class ConveyorReader {
   private:
     /// Reads profile = [[0, 50], [0.5, 120]]: seconds and velocities.
     bool read_profile(const TomlNode& profile) {
-        const auto number = [](const TomlNode& node) {
+        const auto number_in = [](const TomlNode& node) {
             return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number;
         };
         const auto is_number = [](const TomlNode& node) {
@@ -98,7 +98,7 @@ class ConveyorReader {
             if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) ||
                 !is_number(pair.children[1]))
                 return bad(pair.value_location, "a point of its profile must be a pair [seconds, velocity].");
-            track_.profile.push_back({number(pair.children[0]), number(pair.children[1])});
+            track_.profile.push_back({number_in(pair.children[0]), number_in(pair.children[1])});
         }
         if (reader_.node().find(with_unit("velocity_{u}_s", track_.unit())) != nullptr)
             return bad(profile.key_location, "a velocity and a profile are both given; leave one out.");
