@@ -24,7 +24,7 @@ struct ProfileSample {
     double jerk;  ///< in the current phase; 0 for trapezoids
 };
 
-/// The time-optimal profile over a distance between two velocities, within a velocity and an acceleration.
+/// The time-optimal profile over a distance between two velocities, within a velocity limit and an acceleration limit.
 class TrapezoidalProfile {
   public:
     TrapezoidalProfile() = default;
@@ -63,7 +63,7 @@ class TrapezoidalProfile {
     double cruise_start_ = 0;  ///< position at cruise_from_
 };
 
-/// The time-optimal profile from standstill to standstill within a velocity, an acceleration and a jerk. It is
+/// The time-optimal profile from standstill to standstill, within limits of velocity, acceleration and jerk. It is
 /// symmetric, so only the first half is stored: three phases and half of the cruise.
 class SCurveProfile {
   public:

@@ -46,8 +46,8 @@ struct Trim {
     int size = 0;
 };
 
-/// The table in the maker's description. Its first row is read as 0.01 V and its row 15745 as 14745, to fit the
-/// neighbouring rows.
+/// Trim table from the maker's description. Two misprints are corrected to fit the neighbouring rows: the voltage of
+/// row 1 (0.01 V) and the rate of row 5 (14745, printed as 15745).
 inline constexpr Trim default_trim = {
     {{{10'000, 13'799},    {25'000, 14'051},    {50'000, 14'339},    {75'000, 14'565},    {100'000, 14'745},
       {150'000, 15'014},   {200'000, 15'207},   {250'000, 15'351},   {300'000, 15'463},   {350'000, 15'547},

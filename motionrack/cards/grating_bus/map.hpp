@@ -141,7 +141,7 @@ struct ConnectorPin {
     std::string_view likely;   ///< the likeliest reading
     std::string_view or_else;  ///< another reading; empty: no similar one
     std::string_view line;     ///< the bus line; the source does not assign pins to address lines
-    std::string_view doubt;    ///< reason why the reading is a guess
+    std::string_view doubt;    ///< reason why `likely` is a guess
 };
 inline constexpr ConnectorPin connector_pins[] = {
     {"F2E12", "P2C12", "P2E12", "clk", "misread: the P printed as F; a VME connector of three rows has no row E"},

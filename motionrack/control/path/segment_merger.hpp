@@ -49,7 +49,7 @@ struct MergedSegment {
     double feed = 0;      ///< maximum du/dt by the programmed feed rate
     double velocity = 0;  ///< the lower of this and the limits of the axes
     JerkReduction ease_in, ease_out;
-    double seconds = 0;              ///< rest
+    double seconds = 0;              ///< rest: dwell time
     double corner_tolerance_mm = 0;  ///< rest: largest distance of the path from the sides of the corner here
     ArcCurve arc;                    ///< arc
 };

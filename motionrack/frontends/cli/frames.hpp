@@ -35,7 +35,8 @@ std::string frames_json(const rack::FrameMonitor& watch, Instant now);
 /// Returns up to `max_conflicts` of the oldest stored conflicts, each with time, line and drivers; empty if none
 /// occurred.
 std::string conflicts_text(const grating_bus::Bus& bus, std::size_t max_conflicts);
-/// Returns true without conflicts, bad frames and stale frames, if all frames are correct and equal.
+/// Returns true if no bus conflict occurred, no card's frame is stale, and all frames so far were undamaged, correct
+/// and equal.
 bool frames_agree(const rack::FrameMonitor& watch);
 
 void add_frames_show(CLI::App& frames, Action& chosen);

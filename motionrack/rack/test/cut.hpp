@@ -29,7 +29,7 @@ inline std::uint64_t spread(Random& random, double min, double max) {
     return static_cast<std::uint64_t>(min * std::pow(max / min, part));
 }
 
-/// The same for each of the racks: one host access, a switch, a fault.
+/// One event that both compared racks receive: a host access, the level of a wire, or a fault.
 struct Order {
     enum Kind { write, read, wire, fault } kind = write;
     std::string on;         ///< a card, a wire, or the target of a fault

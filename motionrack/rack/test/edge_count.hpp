@@ -23,11 +23,11 @@
 
 namespace motionrack::rack {
 
-/// The meaning of two recorded wires together.
+/// How two recorded wires encode pulses and their direction.
 enum class Wires {
-    both_ways,         ///< pulses forwards, pulses backwards
-    low_is_forwards,   ///< pulses, and their direction by its level
-    high_is_forwards,  ///< pulses, and their direction by its level
+    both_ways,         ///< first wire: pulses forwards; second wire: pulses backwards
+    low_is_forwards,   ///< first wire: pulses; second wire: direction, low is forwards
+    high_is_forwards,  ///< first wire: pulses; second wire: direction, high is forwards
     tracks,            ///< A and B of an encoder
 };
 

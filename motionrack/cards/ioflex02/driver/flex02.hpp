@@ -48,8 +48,8 @@ class Flex02 {
 
     /// Sets only the base address, like the source's constructor; call Configure next.
     virtual void Init(std::uint16_t Addr);
-    /// Checks that exactly one card answers at the base address, loads its array with a compressed image and checks its
-    /// project. Takes seconds. Sets Result.
+    /// Checks that exactly one card answers at the base address, loads its gate array with a compressed image and
+    /// checks which project and version then runs. Takes seconds. Sets Result.
     virtual void Configure(std::span<const std::uint8_t> image);
     /// The image that Flex2Pos::Init loads; empty: the built-in one.
     void use_image(std::vector<std::uint8_t> image) { settings_.image = std::move(image); }

@@ -20,31 +20,31 @@ inline int channel_of_mask(std::int64_t mask) {
     return *channels_of(axes_of(mask)).begin();
 }
 
-/// (axis, data)
+/// Calls a function of the driver with the arguments (axes, data).
 template <Result<void> (Driver::*function)(unsigned, std::int64_t)>
 Result<CallAnswer> set(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK((chip.driver.*function)(axes_of(v[0]), v[1]));
     return written();
 }
-/// (data), all axes
+/// Calls a function of the driver with the argument (data), for all axes.
 template <Result<void> (Driver::*function)(unsigned, std::int64_t)>
 Result<CallAnswer> set_all(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK((chip.driver.*function)(xyzu, v[0]));
     return written();
 }
-/// (n, axis)
+/// Calls a function of the driver with the arguments (n, axes); n is a choice, as of a level.
 template <Result<void> (Driver::*function)(int, unsigned)>
 Result<CallAnswer> turn(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK((chip.driver.*function)(static_cast<int>(v[0]), axes_of(v[1])));
     return written();
 }
-/// (n), all axes
+/// Calls a function of the driver with the argument (n), for all axes.
 template <Result<void> (Driver::*function)(int, unsigned)>
 Result<CallAnswer> turn_all(LibraryChip& chip, Values v) {
     MOTIONRACK_CHECK((chip.driver.*function)(static_cast<int>(v[0]), xyzu));
     return written();
 }
-/// (axis), a single axis
+/// Reads a value of the single axis given by the argument (axis).
 template <std::int32_t (Driver::*function)(int)>
 Result<CallAnswer> read(LibraryChip& chip, Values v) {
     const std::int32_t value = (chip.driver.*function)(channel_of_mask(v[0]));

@@ -137,7 +137,8 @@ class HomeRig {
     sim::WireConnections junctions_;
 };
 
-/// 500 pulses/s to 10,000 pulses/s (15.6 mm/s) with 125,000 pulses/s2; 330 mm of search.
+/// Homing settings of the rig: the search accelerates from 500 pulses/s to 10,000 pulses/s (15.6 mm/s) with
+/// 125,000 pulses/s2 and covers at most 330 mm.
 inline HomeSettings rig_settings(int type) {
     HomeSettings s;
     s.type = type;

@@ -31,11 +31,12 @@ class FlyCorrection {
     Result<void> set_multi_mcbsp_in(int port, std::int64_t factor, int mode);
     /// Online positioning: scale 0 and a resolution below 100 disable it.
     Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution);
-    /// Sets one of the three; the others are kept.
+    /// Each sets one parameter of online positioning (scale of X, scale of Y, resolution of the angle) and keeps the
+    /// other two.
     Result<void> set_mcbsp_x(double scale);
     Result<void> set_mcbsp_y(double scale);
     Result<void> set_mcbsp_rot(double resolution);
-    /// The same by a number: X (0), Y (1) or the angle (2).
+    /// Sets one of these parameters by its number: X (0), Y (1) or the angle (2).
     void set_online(std::size_t which, double value);
     /// Online positioning of matrix coefficients: words of (M * 2^24) * 4 + 2 i + j, |M| < 32.
     void set_mcbsp_matrix();

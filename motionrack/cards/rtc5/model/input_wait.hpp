@@ -16,7 +16,8 @@ class InputWait {
 
     /// Number of ticks of the wait among the next `limit`, including the one that ends it; `over`: it ends in them.
     std::int64_t ticks(std::int64_t limit, bool& over);
-    /// The same without evaluating each tick, if the counts are constant or simulated; -1: each tick must be evaluated.
+    /// Number of ticks of the wait as ticks() finds it, but calculated from constant or simulated counts; 2^60: these
+    /// counts never end the wait; -1: ticks() must evaluate each tick.
     std::int64_t steady_ticks(bool& over) const;
 
   private:

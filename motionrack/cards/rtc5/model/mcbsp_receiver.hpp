@@ -45,11 +45,11 @@ class McBspReceiver {
     std::int64_t power() const;
 
     // ---- use of the words
-    /// set_fly_x_pos, set_fly_y_pos, set_fly_rot_pos
+    /// Applies set_fly_x_pos, set_fly_y_pos or set_fly_rot_pos to the words that follow.
     void begin_correction();
-    /// set_mcbsp_in
+    /// Applies set_mcbsp_in to the words that follow.
     void begin_axis_correction(int mode);
-    /// set_multi_mcbsp_in
+    /// Applies set_multi_mcbsp_in to the words that follow: each carries its type.
     void begin_typed_words(std::int64_t port, std::int64_t factor, std::int64_t mode);
     bool words_have_types() const { return state_.multi != 0; }
     /// Online positioning by these scales; returns whether it is on then.

@@ -26,7 +26,7 @@ class PathGenerator {
     const Delays& delays() const { return settings_.delays; }
 
     // ---- begin of an activity
-    /// `steps` of 0: at the speed.
+    /// Starts a straight line to `target`. `steps`: its duration in ticks; 0: derived from `speed`.
     void begin_line(Point target, double speed, Ending ending, std::int64_t steps = 0);
     void begin_jump(Point target) { begin_line(target, settings_.jump_speed, Ending::jump); }
     void begin_mark(Point target) { begin_line(target, settings_.mark_speed, Ending::mark); }

@@ -1,5 +1,5 @@
-// The slow RTC5: every rule of RULES.md, tick by tick, in the simplest form. It shares only the tables of commands and
-// bits with the model.
+// Reference implementation of the RTC5 for tests: every rule of RULES.md in the simplest form, evaluated at every tick,
+// and therefore slow. It shares only the tables of commands and bits with the card's model.
 #pragma once
 
 #include <algorithm>
