@@ -185,8 +185,8 @@ Result<void> refuse_too_fast(const MarkingJob& job, const Quick& now, const Mark
                                  : fmt::format("{:.4g} times them", *out.fits_factor);
     return fail(ErrorKind::refused,
                 fmt::format("The belt is too fast: at {} marks leave the field by up to {:.3f} mm before they are "
-                            "finished, even with waits. The limit is {}. Nothing was marked; slow the belt down, mark "
-                            "and jump faster, or leave the waits out to see the marks.",
+                            "finished, even with waits. The limit is {}. Nothing was marked. Slow the belt down, raise "
+                            "the mark and jump speeds, or set wait_mode = \"none\" in [fly] to run the job anyway.",
                             fast, now.beyond_mm, slow));
 }
 

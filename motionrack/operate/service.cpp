@@ -84,9 +84,10 @@ Result<void> Service::call(FunctionCall call, const StopOrigin& by, const std::s
     MOTIONRACK_TRY(const std::span<const FunctionInfo> functions, library_of(machine_.rack_, call.card));
     MOTIONRACK_TRY(CheckedCall checked, check_call(functions, call.function, call.arguments));
     if (on() && call.card != card_)
-        return fail(ErrorKind::refused, fmt::format("{} was not called: card {} is in service, not card {}. End that "
-                                                    "service first.",
-                                                    call.function, card_, call.card));
+        return fail(ErrorKind::refused,
+                    fmt::format("{} was not called: the machine is in the service state for card {}, not for card {}. "
+                                "End that service first.",
+                                call.function, card_, call.card));
     if (!on() && !axes_of(call.card).empty())
         return fail(ErrorKind::refused,
                     fmt::format("{} was not called: card {} is driven by the controller. Begin its service first.",

@@ -51,8 +51,10 @@ void service(PanelContext& context, const Caller& caller, const json& fields, co
     };
     operate::Service& service = context.machine.service();
     if (!fields.at("on").get<bool>() && service.on() && service.card() != card)
-        return ready(fail(ErrorKind::refused, fmt::format("Card {} is in service, not card {}. Nothing was changed.",
-                                                          service.card(), card)));
+        return ready(fail(ErrorKind::refused,
+                          fmt::format("The machine is in the service state for card {}, not for card {}. Nothing was "
+                                      "changed.",
+                                      service.card(), card)));
     const Result<void> taken = fields.at("on").get<bool>()
                                    ? service.begin(card, origin_of(caller), caller.session, reported)
                                    : service.end(reported);

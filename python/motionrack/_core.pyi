@@ -1072,7 +1072,7 @@ class Ioflex02:
         """Loads the array with a custom image (bytes, of make_image or motionrack image make), at a base address, or at the one before. 0, or 1 if the image is damaged, 3 if it is of another project or version."""
     @staticmethod
     def make_image(project: str = 'position', ident: int = 37, modes: Sequence[int] = [0, 0, 0, 0], bits: bytes = b'') -> bytes:
-        """A custom configuration image: its project, version, how the axes count (words MODE), and bytes that the array stores but does not use."""
+        """Returns a custom configuration image: the project's name, its version, the value of register MODE of each axis, and further bytes, which the gate array stores without using them."""
     @staticmethod
     def image_info(image: bytes) -> dict[str, Any]:
         """Show the header of an image: project, ident, payload (bytes), modes, and whether Init would take it (fits). InvalidInput for one that the card would refuse."""

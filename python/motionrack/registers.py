@@ -114,7 +114,10 @@ class Register:
             raise Refused(f"Register {self._name} can only be read; nothing was written.")
         word = 0 if value is None else int(value)
         if value is None and not fields:
-            raise Refused(f"Nothing is given to be written to register {self._name}.")
+            raise Refused(
+                f"No value and no field was given for register {self._name}. Nothing was written. Pass a value, or "
+                "fields by their names."
+            )
         if not 0 <= word < 1 << self.width:
             raise Refused(
                 f"{word} does not fit into register {self._name}: 0 to {(1 << self.width) - 1}. Nothing was written."

@@ -203,8 +203,8 @@ void bind_images(FlexClass& c) {
     c.def_static("make_image", &make_image, py::arg("project") = std::string(io::position_project),
                  py::arg("ident") = static_cast<int>(io::position_ident), py::arg("modes") = std::array<int, 4>{},
                  py::arg("bits") = py::bytes(""),
-                 "A custom configuration image: its project, version, how the axes count (words MODE), and bytes "
-                 "that the array stores but does not use.");
+                 "Returns a custom configuration image: the project's name, its version, the value of register MODE "
+                 "of each axis, and further bytes, which the gate array stores without using them.");
     c.def_static("image_info", &image_info, py::arg("image"),
                  "Show the header of an image: project, ident, payload (bytes), modes, and whether Init would take it "
                  "(fits). InvalidInput for one that the card would refuse.");

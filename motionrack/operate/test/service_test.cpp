@@ -200,8 +200,8 @@ TEST(Service, StartsOnACallToACardThatNothingDrives) {
     o.run(1);
     EXPECT_EQ(o.said,
               (std::vector<std::string>{"Written.", "X drives.", "X is at standstill, as commanded.", "500 pulses",
-                                        "refused: ReadLPS was not called: card free is in service, not card "
-                                        "m. End that service first."}));
+                                        "refused: ReadLPS was not called: the machine is in the service state for "
+                                        "card free, not for card m. End that service first."}));
 }
 
 TEST(Service, CallsOneFunctionAtATimeAndExecutesCommandsWhileItWaits) {
