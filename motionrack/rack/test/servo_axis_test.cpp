@@ -251,7 +251,7 @@ TEST(ServoAxis, HasQuantitiesOfVoltageAndCamAndFaultsOfItsServo) {
     ASSERT_TRUE(m.context.force("X.drive", -2));
     m.host().pass(milliseconds(500));
     EXPECT_NEAR(m.velocity(), -200, 2);
-    EXPECT_THAT(m.context.force("X.drive", 40).error().message, HasSubstr("-15 .. 15 V"));
+    EXPECT_THAT(m.context.force("X.drive", 40).error().message, HasSubstr("-15 to 15 V"));
 }
 
 TEST(ServoAxis, AllHomingMethodsFindTheCamOrTheIndexUnderIt) {
