@@ -119,7 +119,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"databoard4002lib", {"calls", "rack", "live", "databoard4002/library"}},
     {"rtc5sim", {"calls", "rack", "live", "rtc5/model"}},
     {"python",
-     {"base", "sim", "trace", "rack", "operate", "live", "mcx314/driver", "mcx314/library", "databoard4002/map",
+     {"base", "trace", "rack", "operate", "live", "mcx314/driver", "mcx314/library", "databoard4002/map",
       "databoard4002/driver", "databoard4002/library", "ioflex02/driver", "grating_bus/driver", "rtc5/model"}},
 };
 

@@ -186,9 +186,9 @@ class StageCheck {
                             number_text(stage_.hard_stop_minus_mm), number_text(stage_.hard_stop_plus_mm)));
         const double start = motor_settings(stage_).start_nm * 1e-6;
         if (start < stage_.hard_stop_minus_mm || start > stage_.hard_stop_plus_mm)
-            reader_.refuse("start_mm", fmt::format("it starts at {} mm, outside of its travel, {} to {} mm.",
-                                                   number_text(start), number_text(stage_.hard_stop_minus_mm),
-                                                   number_text(stage_.hard_stop_plus_mm)));
+            reader_.refuse("start_mm",
+                           fmt::format("it starts at {} mm, outside of its travel, {} to {} mm.", number_text(start),
+                                       number_text(stage_.hard_stop_minus_mm), number_text(stage_.hard_stop_plus_mm)));
     }
 
     const RackStage& stage_;

@@ -58,7 +58,7 @@ Result<UINT> cards_wanted() {
     if (error != std::errc() || end != all.data() + all.size() || number < 1 || number > max_cards)
         return fail(ErrorKind::invalid_input,
                     fmt::format("the environment variable RTC5SIM_CARDS is \"{}\", but the number of cards "
-                                "is 1 to {}. Nothing was done.",
+                                "must be 1 to {}. Nothing was done.",
                                 all, max_cards));
     return number;
 }

@@ -67,7 +67,7 @@ RC_GTEST_PROP(PulseTrain, CountsLevelsEdgesAndCrossingsAreThoseOfACountedClock, 
     std::int64_t at = 0;
     std::size_t rises = 0;
     bool high = false;
-    for (int step = 0; step < 12; ++step) {
+    for (int setting = 0; setting < 12; ++setting) {
         const auto divisor = *rc::gen::weightedOneOf<std::int64_t>(
             {{1, rc::gen::just<std::int64_t>(0)}, {4, rc::gen::inRange<std::int64_t>(1, 9)}});
         const int turn = *rc::gen::element(1, 1, -1);

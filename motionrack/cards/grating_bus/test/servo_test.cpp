@@ -79,11 +79,11 @@ TEST(StepProfile, StepsUpAndDownAndStops) {
 RC_GTEST_PROP(StepProfile, EndsWhereItShould, ()) {
     MotionLimits any{1e5 * *rc::gen::inRange(1, 1'000), 1e8 * *rc::gen::inRange(1, 100),
                      1e11 * *rc::gen::inRange(1, 100)};
-    const double step = 10.0 * *rc::gen::inRange(1, 100'000);
-    const StepProfile steps(0, step, 2, 100, any);
-    RC_ASSERT(std::fabs(steps.at(steps.move_s()).position_nm - step) < 1e-6 * step + 1e-3);
+    const double step_nm = 10.0 * *rc::gen::inRange(1, 100'000);
+    const StepProfile steps(0, step_nm, 2, 100, any);
+    RC_ASSERT(std::fabs(steps.at(steps.move_s()).position_nm - step_nm) < 1e-6 * step_nm + 1e-3);
     RC_ASSERT(steps.at(steps.move_s() / 2).speed_nm_s <= any.speed_nm_s * (1 + 1e-9));
-    RC_ASSERT(std::fabs(steps.at(steps.move_s() / 2).position_nm - step / 2) < 1e-6 * step + 1e-3);
+    RC_ASSERT(std::fabs(steps.at(steps.move_s() / 2).position_nm - step_nm / 2) < 1e-6 * step_nm + 1e-3);
 }
 
 // ---- loops

@@ -11,10 +11,10 @@ constexpr PortGroup groups[] = {PortGroup::a, PortGroup::b};
 constexpr std::uint8_t control_port = offset("MODE_SET");
 static_assert(control_port == offset("BIT"));
 
-constexpr std::size_t number_of(PortGroup group) {
+constexpr std::size_t index_of(PortGroup group) {
     return static_cast<std::size_t>(group);
 }
-constexpr std::size_t number_of(IoPort port) {
+constexpr std::size_t index_of(IoPort port) {
     return static_cast<std::size_t>(port);
 }
 /// The port of 8 lines that belongs to the group.
@@ -50,7 +50,7 @@ void Card::report(CardCondition code, std::int64_t a, std::int64_t b) {
 
 /// Number of the wire of a receiver.
 std::size_t Card::received(IoPort port, int line) const {
-    return line_count + number_of(port) * lines_of_port + static_cast<std::size_t>(line);
+    return line_count + index_of(port) * lines_of_port + static_cast<std::size_t>(line);
 }
 
 bool Card::is_high(int line_of_c) const {
@@ -66,20 +66,20 @@ unsigned Card::levels(IoPort port) const {
 
 /// Level of IBF or OBF, as the group is an input or an output.
 bool Card::flag(PortGroup group) const {
-    return (state_.full[number_of(group)] != 0) == modes().is_input(group);
+    return (state_.full[index_of(group)] != 0) == modes().is_input(group);
 }
 
 /// Level of INTR.
 bool Card::requests(PortGroup group) const {
     const PortModes now = modes();
-    if (!now.is_strobed(group) || state_.enabled[number_of(group)] == 0) return false;
+    if (!now.is_strobed(group) || state_.enabled[index_of(group)] == 0) return false;
     return flag(group) && is_high(handshake_of(group, now.is_input(group)).strobe);
 }
 
 /// Bits of port C that the drivers put out.
 unsigned Card::driven_c() const {
     const PortModes now = modes();
-    unsigned out = state_.latch[number_of(IoPort::c)] & port_c_lines(now).outputs;
+    unsigned out = state_.latch[index_of(IoPort::c)] & port_c_lines(now).outputs;
     for (const PortGroup group : groups) {
         if (!now.is_strobed(group)) continue;
         const HandshakeLines lines = handshake_of(group, now.is_input(group));
@@ -102,9 +102,9 @@ void Card::drive() {
 /// Port A or B as the host reads it.
 unsigned Card::byte(PortGroup group) const {
     const PortModes now = modes();
-    if (!now.is_input(group)) return state_.latch[number_of(group)];
+    if (!now.is_input(group)) return state_.latch[index_of(group)];
     if (!now.is_strobed(group) || !is_high(handshake_of(group, true).strobe)) return levels(port_of(group));
-    return state_.taken[number_of(group)];
+    return state_.taken[index_of(group)];
 }
 
 /// Port C as the host reads it: INTE in place of STB and ACK.
@@ -114,7 +114,7 @@ unsigned Card::port_c() const {
     unsigned out = driven_c() | (levels(IoPort::c) & ~(lines.outputs | lines.flags | lines.strobes));
     for (const PortGroup group : groups)
         if (now.is_strobed(group))
-            out |= unsigned{state_.enabled[number_of(group)]} << handshake_of(group, now.is_input(group)).strobe;
+            out |= unsigned{state_.enabled[index_of(group)]} << handshake_of(group, now.is_input(group)).strobe;
     return out;
 }
 
@@ -131,8 +131,8 @@ std::uint8_t Card::in(std::uint8_t port) {
     const PortModes now = modes();
     // A byte whose strobe is still low is not complete, so it stays.
     if (!now.is_strobed(group) || !now.is_input(group) || !is_high(handshake_of(group, true).strobe)) return value;
-    state_.full[number_of(group)] = 0;
-    state_.reported_lost[number_of(group)] = 0;
+    state_.full[index_of(group)] = 0;
+    state_.reported_lost[index_of(group)] = 0;
     drive();
     return value;
 }
@@ -154,7 +154,7 @@ void Card::out(std::uint8_t port, std::uint8_t value) {
 
 /// The host writes the outputs in `mask`.
 void Card::put(IoPort port, unsigned value, unsigned mask) {
-    const std::size_t p = number_of(port);
+    const std::size_t p = index_of(port);
     const sim::MaskedWrite write{static_cast<std::uint16_t>(value), static_cast<std::uint16_t>(mask)};
     const std::uint32_t low = sim::put_unless_held(write, state_.latch[p], state_.held[p]);
     if (low != 0 && std::exchange(state_.reported_held, 1u) == 0)
@@ -166,7 +166,7 @@ void Card::put_byte(PortGroup group, unsigned value) {
     if (now.is_input(group)) return;
     put(port_of(group), value, 0xFF);
     if (!now.is_strobed(group)) return;
-    const std::size_t g = number_of(group);
+    const std::size_t g = index_of(group);
     if (state_.full[g] != 0 && std::exchange(state_.reported_lost[g], std::uint16_t{1}) == 0)
         report(CardCondition::byte_overwritten, static_cast<std::int64_t>(g));
     state_.full[g] = 1;
@@ -183,7 +183,7 @@ void Card::set_bit(std::uint8_t word) {
     const bool level = field("BIT", "LEVEL").test(word);
     const PortCLines lines = port_c_lines(modes());
     if ((lines.strobes & bit) != 0)
-        state_.enabled[number_of(line < 4 ? PortGroup::b : PortGroup::a)] = level;
+        state_.enabled[index_of(line < 4 ? PortGroup::b : PortGroup::a)] = level;
     else if ((lines.flags & bit) != 0)
         report(CardCondition::flag_written, line);
     else if ((lines.outputs & bit) != 0)
@@ -210,7 +210,7 @@ void Card::on_wire(int line, int level, Instant) {
 
 /// An edge of STB or ACK.
 void Card::strobe(PortGroup group, bool high) {
-    const std::size_t g = number_of(group);
+    const std::size_t g = index_of(group);
     if (!modes().is_input(group)) {
         if (high) return;
         state_.full[g] = 0;

@@ -88,14 +88,14 @@ RC_GTEST_PROP(SCurveLaw, ARampTakesTheTimeOfTheFormulaAndFallsAsItRose, ()) {
     const CurveData data = any_ramp();
     const rules::Ramp rise = rules::s_ramp(data.SV, data.V, data.A, data.K),
                       fall = rules::s_ramp(data.V, data.SV, data.A, data.K);
-    const double formula = ticks_by_the_formula(data), step = static_cast<double>(step_of(data));
-    RC_ASSERT(std::fabs(static_cast<double>(rise.ticks) - formula) <= 0.01 * formula + step);
-    RC_ASSERT(std::fabs(static_cast<double>(fall.ticks) - formula) <= 0.01 * formula + step);
-    RC_ASSERT(std::fabs(static_cast<double>(rise.ticks - fall.ticks)) <= step);
+    const double formula = ticks_by_the_formula(data), step_ticks = static_cast<double>(step_of(data));
+    RC_ASSERT(std::fabs(static_cast<double>(rise.ticks) - formula) <= 0.01 * formula + step_ticks);
+    RC_ASSERT(std::fabs(static_cast<double>(fall.ticks) - formula) <= 0.01 * formula + step_ticks);
+    RC_ASSERT(std::fabs(static_cast<double>(rise.ticks - fall.ticks)) <= step_ticks);
     // The distance is the mean of the speeds times the time.
     const double mean = 0.5 * static_cast<double>(data.V + data.SV);
-    RC_ASSERT(std::fabs(static_cast<double>(rise.phase) - mean * formula) <= 0.02 * mean * formula + mean * step);
-    RC_ASSERT(std::fabs(static_cast<double>(fall.phase) - mean * formula) <= 0.02 * mean * formula + mean * step);
+    RC_ASSERT(std::fabs(static_cast<double>(rise.phase) - mean * formula) <= 0.02 * mean * formula + mean * step_ticks);
+    RC_ASSERT(std::fabs(static_cast<double>(fall.phase) - mean * formula) <= 0.02 * mean * formula + mean * step_ticks);
 }
 
 RC_GTEST_PROP(SCurveLaw, WithTheOffsetThatFitsADriveEndsAtItsStartSpeed, ()) {
