@@ -117,7 +117,8 @@ Result<void> quick_check(const Database& database, const std::string& path) {
 /// A file without tables has one page at most. A larger file has lost the page of its tables.
 Result<void> check_new(const std::string& path) {
     std::error_code error;
-    const std::uintmax_t bytes = std::filesystem::file_size(path, error);  // on an error the largest number
+    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+    if (error) return fail(ErrorKind::io, fmt::format("its size cannot be read: {}", error.message()));
     if (bytes <= page_bytes) return {};
     return damaged(path, fmt::format("it has {} bytes and no tables", bytes));
 }

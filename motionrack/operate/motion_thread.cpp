@@ -61,7 +61,8 @@ std::string alarm_source(const rack::StopLatch& latch) {
 
 /// An axis left without a position by homing or by its own card reports that itself.
 bool says_lost(const std::string& text) {
-    return text.find(" not valid") != std::string::npos;
+    const std::size_t at = text.find(" not valid");
+    return at != std::string::npos && text.rfind("position", at) != std::string::npos;
 }
 
 /// Describes the cause or source of the stop, and the remedy.

@@ -307,7 +307,7 @@ void add_axis_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 
 }  // namespace
 
-constinit const PartKind axis_part_kind = {
+constexpr PartKind axis_part_kind = {
     "axis", add_axis_parts, declared<axis_quantities>, names_of<axis_faults>, &axis_sections, &axis_part_signals};
 
 }  // namespace motionrack::rack

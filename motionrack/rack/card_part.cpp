@@ -60,6 +60,6 @@ void add_card_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 
 }  // namespace
 
-constinit const PartKind card_part_kind = {"card", add_card_parts, nullptr, nullptr, nullptr, nullptr};
+constexpr PartKind card_part_kind = {"card", add_card_parts, nullptr, nullptr, nullptr, nullptr};
 
 }  // namespace motionrack::rack

@@ -194,7 +194,7 @@ void add_conveyor_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 
 }  // namespace
 
-constinit const PartKind conveyor_part_kind = {
+constexpr PartKind conveyor_part_kind = {
     "conveyor",         add_conveyor_parts,    declared<conveyor_quantities>, names_of<conveyor_faults>,
     &conveyor_sections, &conveyor_part_signals};
 

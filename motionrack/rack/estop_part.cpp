@@ -52,6 +52,6 @@ constexpr PartSignals estop_part_signals = {
 
 }  // namespace
 
-constinit const PartKind estop_part_kind = {"estop", nullptr, nullptr, nullptr, nullptr, &estop_part_signals};
+constexpr PartKind estop_part_kind = {"estop", nullptr, nullptr, nullptr, nullptr, &estop_part_signals};
 
 }  // namespace motionrack::rack

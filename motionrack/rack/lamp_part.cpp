@@ -68,7 +68,7 @@ void add_lamp_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 
 }  // namespace
 
-constinit const PartKind lamp_part_kind = {
+constexpr PartKind lamp_part_kind = {
     "lamp", add_lamp_parts, declared<lamp_quantities>, names_of<lamp_faults>, &lamp_sections, &lamp_part_signals};
 
 }  // namespace motionrack::rack

@@ -48,6 +48,6 @@ constexpr PartSignals probe_part_signals = {
 
 }  // namespace
 
-constinit const PartKind probe_part_kind = {"probe", nullptr, nullptr, nullptr, &probe_sections, &probe_part_signals};
+constexpr PartKind probe_part_kind = {"probe", nullptr, nullptr, nullptr, &probe_sections, &probe_part_signals};
 
 }  // namespace motionrack::rack

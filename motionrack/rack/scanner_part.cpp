@@ -38,7 +38,7 @@ void add_scanner_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 
 }  // namespace
 
-constinit const PartKind scanner_part_kind = {"scanner", add_scanner_parts, declared<scanner_quantities>,
-                                              nullptr,   &scanner_sections, nullptr};
+constexpr PartKind scanner_part_kind = {"scanner", add_scanner_parts, declared<scanner_quantities>,
+                                        nullptr,   &scanner_sections, nullptr};
 
 }  // namespace motionrack::rack

@@ -139,7 +139,7 @@ void add_stage_parts(Rack& rack, std::vector<std::unique_ptr<Part>>& parts) {
 
 }  // namespace
 
-constinit const PartKind stage_part_kind = {
+constexpr PartKind stage_part_kind = {
     "stage", add_stage_parts, declared<stage_quantities>, names_of<stage_faults>, &stage_sections, &stage_part_signals};
 
 }  // namespace motionrack::rack

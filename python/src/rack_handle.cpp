@@ -62,6 +62,7 @@ RackHandle::~RackHandle() {
 void RackHandle::close() {
     if (recorder_) static_cast<void>(end_waves());
     sampler_.reset();
+    samples_.reset();
     recorder_.reset();
     // The kernel keeps them until the rack is destroyed; the rack no longer calls them.
     context_.reset();
