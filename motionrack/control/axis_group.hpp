@@ -33,10 +33,10 @@ struct ProbeResult {
     Point at = {};     ///< axis positions at that instant, as latched by the card; without a hit, the final positions
 };
 
-/// "X 10.0000, Y 5.0000": lists the axes that are present.
+/// Returns the positions of the axes that are present, as "X 10.0000, Y 5.0000".
 std::string position_text(const Point& at, const MachineLimits& limits);
 
-/// Returns ErrorKind::stopped with the wording that all cards share.
+/// Returns the error of a requested stop (ErrorKind::stopped), in the wording that all cards share.
 tl::unexpected<Error> stopped_on_request(int line, const Point& at, const MachineLimits& limits);
 
 class AxisGroup {
@@ -65,7 +65,7 @@ class AxisGroup {
     virtual void stop(bool immediate) = 0;
     /// Returns the commanded position from the card's pulse counters.
     virtual Point commanded_position() = 0;
-    /// Return the entries since the last call, oldest first.
+    /// Return the warnings, and the starts of moves, since the last call, oldest first.
     virtual std::vector<PathWarning> take_path_warnings() = 0;
     virtual std::vector<MoveStart> take_move_starts() = 0;
 };

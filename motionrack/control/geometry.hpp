@@ -32,10 +32,10 @@ struct Geometry {
     double length = 0;
     Point start = {};
     Point end = {};
-    Point tangent_in = {};     ///< at the start
-    Point tangent_out = {};    ///< at the end
-    double centre_first = 0;   ///< arc: mm
-    double centre_second = 0;  ///< arc: mm
+    Point tangent_in = {};     ///< tangent at the start
+    Point tangent_out = {};    ///< tangent at the end
+    double centre_first = 0;   ///< arc: centre on axis `first`, mm
+    double centre_second = 0;  ///< arc: centre on axis `second`, mm
     double radius = 0;         ///< arc: mm, in its plane; mean of start and end radius, which may differ by rounding
     double radius_growth = 0;  ///< arc: (radius at the end / radius at the start) - 1
     double sweep = 0;          ///< arc: rad, > 0 counter-clockwise seen from the positive third axis
@@ -45,7 +45,7 @@ struct Geometry {
 /// dwell as no motion.
 Geometry geometry_of(const Move& move, const Point& start);
 
-/// Returns all six axes after `length` along the path; clamps exactly to the start and the end.
+/// Returns the position of all six axes after `length` along the path; clamps exactly to the start and the end.
 Point position_at(const Geometry& path, double length);
 
 /// Returns the tangent after `length` of the path (0 .. path.length).

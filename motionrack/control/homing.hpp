@@ -9,7 +9,7 @@
 
 namespace motionrack::control {
 
-/// Homing methods.
+/// Ways to find the home position of an axis.
 enum class HomingMethod : std::uint8_t {
     stop_at_switch = 1,      ///< fast: decelerates at the switch, home is the stop position
     twice_to_switch = 2,     ///< backs off the switch and approaches it again slowly: home is its edge
@@ -23,8 +23,8 @@ struct HomingRequest {
     double search_velocity = 0;  ///< > 0, at most the velocity limit
     double latch_velocity = 0;   ///< for the second approach and the index search, > 0, at most the velocity step limit
     double home_offset = 0;      ///< position value assigned at home
-    /// Switch hysteresis: distance back until release. Edges that it does not explain invalidate the result. Absent:
-    /// edges are not compared.
+    /// Switch hysteresis: distance back until release, mm or degrees. Edges further apart than it and contact bounce
+    /// explain make the result invalid. Absent: edges are not compared.
     std::optional<double> hysteresis;
     double backoff = 0.1;       ///< back-off beyond the release of the switch, mm or degrees, >= 0
     double settle_s = 0.005;    ///< debounce: time for which contacts must be stable, 0 .. 10 s
@@ -44,21 +44,21 @@ struct HomingEdge {
     double position = 0;
     double within = 0;    ///< position uncertainty, backwards along the motion; 0: exact to the pulse
     double velocity = 0;  ///< velocity of the axis at the edge
-    double seconds = 0;   ///< since the start of homing
+    double seconds = 0;   ///< time since the start of homing, s
 };
 
 struct HomingStateVisit {
     std::string state;
-    double from_s = 0;  ///< since the start of homing
+    double from_s = 0;  ///< start of the state, s since the start of homing
     double took_s = 0;
-    double from = 0;  ///< positions
+    double from = 0;  ///< position at the start of the state
     double to = 0;
 };
 
 /// Current homing state of an axis.
 struct AxisHomingState {
     char letter = 'X';
-    std::string state;  ///< "SLOW_WAIT"
+    std::string state;  ///< name of the state as the card calls it: "SLOW_WAIT"
 };
 
 struct HomingResult {

@@ -27,7 +27,7 @@ namespace motionrack::control {
 struct LookAheadSettings {
     /// Minimum number of moves in view behind a move when it is planned, unless the path stops before; 1 .. 1'000'000.
     int window = 1024;
-    /// May be null; must outlive the planner.
+    /// Constraints of the hardware; null: none. Must outlive the planner.
     const DriveConstraints* drive = nullptr;
 };
 
@@ -43,8 +43,8 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     void flush() override;
     bool pull(PlannedMove& planned) override;
 
-    /// As pull(); if no move is ready, returns the first open one, which makes its velocities final. Returns false if
-    /// it has no move.
+    /// Returns the next planned move, as pull(). If none is ready, makes the velocities of the first open move final
+    /// and returns it. Returns false if there is no move.
     bool pull_early(PlannedMove& planned);
 
     /// Returns true if the next `count` moves are whole moves as they were pushed, the path stands still before them,
@@ -71,9 +71,9 @@ class LookAheadPlanner final : public TrajectoryPlanner {
   private:
     /// Factor on velocity2 at the start of a move, from the pulse rate at the junction.
     struct Gain {
-        double square = 1;    ///< 1 or more
-        bool corner = false;  ///< the plan ends the move before with the velocity of this one nevertheless
-        double braking = 1;   ///< 1 or more; counts only for a move that decelerates from its start
+        double square = 1;    ///< the factor, 1 or more
+        bool corner = false;  ///< not planned: the move before ends with the velocity of this one
+        double braking = 1;   ///< as `square`, for a move that decelerates from its start
         double planned() const { return corner ? 1 : square; }
     };
 
@@ -120,14 +120,14 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     std::uint64_t mask_ = 0;
     std::uint64_t batch_ = 0;    ///< number of open moves that triggers the passes
     std::uint64_t chunk_ = 0;    ///< minimum number of moves that become ready then
-    std::uint64_t head_ = 0;     ///< next to pull
-    std::uint64_t ready_ = 0;    ///< first open move
-    std::uint64_t tail_ = 0;     ///< one past the last move
-    std::uint64_t settled_ = 0;  ///< entry velocities up to and including this move are final
+    std::uint64_t head_ = 0;     ///< index of the move that is pulled next
+    std::uint64_t ready_ = 0;    ///< index of the first open move
+    std::uint64_t tail_ = 0;     ///< index after the last move
+    std::uint64_t settled_ = 0;  ///< index of the last move whose entry velocity is final
     double committed_ = 0;       ///< entry velocity of the first open move
-    std::int64_t pushed_ = 0;    ///< moves that were planned or are open
+    std::int64_t pushed_ = 0;    ///< number of moves that were planned or are open
     Point position_;
-    Last last_, before_last_;  ///< open moves
+    Last last_, before_last_;  ///< data of the last move, and of the one before it
     double min_seconds_ = 0, late_seconds_ = 0;
     std::array<double, axis_count> half_pulse_ = {};
     bool apart_ = false;

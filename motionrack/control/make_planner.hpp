@@ -21,7 +21,7 @@ inline LookAheadPlanner make_look_ahead_planner(const AxisGroup& axes, const Mac
     return LookAheadPlanner(without_accel_reserve(limits, accel_reserve), start, settings);
 }
 
-/// Makes the jerk-limited planner instead.
+/// Makes a planner with limited jerk and the card's constraints; arguments as for make_look_ahead_planner().
 inline TrajectoryInterpolator make_trajectory_interpolator(const AxisGroup& axes, const MachineLimits& limits,
                                                            double accel_reserve, InterpolatorSettings settings,
                                                            const Point& start) {

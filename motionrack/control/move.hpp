@@ -6,7 +6,7 @@
 
 namespace motionrack::control {
 
-/// X Y Z in mm, A B C in degrees, always in this order.
+/// Number and letters of the axes: X Y Z in mm, A B C in degrees, always in this order.
 inline constexpr int axis_count = 6;
 inline constexpr std::array<char, axis_count> axis_letters = {'X', 'Y', 'Z', 'A', 'B', 'C'};
 using Point = std::array<double, axis_count>;
@@ -46,10 +46,10 @@ struct Move {
         -1;  ///< number among the moves of the program, as read, from 0; kept by its parts; -1: not from a program
     double feed = 0;            ///< see FeedMode; ignored by rapids and dwells
     double rapid_override = 1;  ///< rapids: share of the axes' maximum velocities, above 0 to 1
-    double tolerance_mm = 0;    ///< for PathControl::continuous
-    double centre_first = 0;    ///< mm
-    double centre_second = 0;   ///< mm
-    double seconds = 0;         ///< dwell only
+    double tolerance_mm = 0;    ///< largest deviation from the path with PathControl::continuous
+    double centre_first = 0;    ///< arc: centre on axis `first`, mm
+    double centre_second = 0;   ///< arc: centre on axis `second`, mm
+    double seconds = 0;         ///< dwell: its duration
     Point end = {};             ///< target position
 };
 

@@ -22,11 +22,11 @@ namespace motionrack::control {
 /// Position, velocity and acceleration of an axis.
 struct KinematicState {
     double position = 0;
-    double velocity = 0;  ///< signed
-    double accel = 0;     ///< signed
+    double velocity = 0;  ///< per second, signed
+    double accel = 0;     ///< per second squared, signed
 };
 
-/// Absolute limits, for both directions; all > 0 and finite.
+/// Limits of velocity, acceleration and jerk, for both directions; all > 0 and finite.
 struct KinematicLimits {
     double velocity = 0;
     double accel = 0;
@@ -59,10 +59,10 @@ class AxisProfile {
     AxisProfile() {}  // leaves the phases uninitialised: clearing them would take a tenth of the time of a solution
 
     double duration() const { return duration_; }           ///< s
-    const KinematicState& start() const { return start_; }  ///< as given
+    const KinematicState& start() const { return start_; }  ///< start state, as given
     const KinematicState& target() const {
         return target_;
-    }  ///< as given; after velocity_change_profile() with the position reached
+    }  ///< target state, as given; after velocity_change_profile() with the position reached
 
     /// Returns the phases in order, without those of 0 s. At most 9.
     std::span<const CubicPhase> phases() const { return {phases_.data(), static_cast<std::size_t>(count_)}; }

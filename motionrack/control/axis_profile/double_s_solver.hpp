@@ -51,7 +51,7 @@ struct DirectVelocityChange {
     bool mirrored;
     double rise, hold, fall;
 };
-/// Ignores the distance of `course`.
+/// Returns the fastest velocity change between the ends of `course`; its distance is ignored.
 DirectVelocityChange direct_velocity_change(const BoundaryConditions& course);
 
 /// A solution as phases of boundary conditions that are mirrored if so flagged, then reversed in time.
@@ -61,8 +61,8 @@ struct TimeOptimalSolution {
     DoubleSPhases phases;
 };
 
-/// Requires |accelerations| <= 1 and velocities that stay within `top`; `slack` is the share of the distance due to
-/// rounding.
+/// Solves for the fastest profile. Requires |accelerations| <= 1 and velocities that stay within the maximum `top`.
+/// `slack`: share of the distance that is due to rounding.
 TimeOptimalSolution solve_time_optimal(const BoundaryConditions& course, double top, double slack);
 
 /// Solver for conditions whose direct change rises first and does not reach the distance.
@@ -79,7 +79,7 @@ class DoubleSSolver {
     DoubleSPhases phases() const;
 
   private:
-    /// Returns P^2, or 1 plus the hold.
+    /// Returns P^2 for this s, or 1 plus the hold at the peak.
     double high_at(double s) const { return std::max(floor_, rise_ + s * s); }
     double reach_at(double s) const;
     double flow_at(double s) const;
@@ -92,15 +92,15 @@ class DoubleSSolver {
 
     double start_accel_, end_accel_;
     double start_foot_, end_foot_;
-    double rise_;   ///< from foot to foot, >= 0
-    double both_;   ///< sum of the feet
-    double reach_;  ///< required
+    double rise_;   ///< end_foot_ - start_foot_, >= 0
+    double both_;   ///< start_foot_ + end_foot_
+    double reach_;  ///< required distance between the feet
     double top_;
-    double min_s_;          ///< s of the direct change
+    double min_s_;          ///< lower bound of s: that of the direct change
     bool swapped_ = false;  ///< peak and valley, and the feet, are swapped so that the feet rise
     double floor_ = 0;      ///< minimum of P^2, because the acceleration starts there
     double gap_ = 0;        ///< no solution has |s| below it: its first phase would have a negative duration
-    double s_ = 0;          ///< solution
+    double s_ = 0;          ///< s of the solution
     double cruise_ = 0;
 };
 

@@ -19,7 +19,7 @@ inline constexpr double spline_tolerance_mm = 0.001;
 struct CubicBezier {
     std::array<PlanePoint, 4> points;
 
-    PlanePoint at(double t) const;  ///< 0 .. 1
+    PlanePoint at(double t) const;  ///< point at parameter t, 0 .. 1
     /// Returns the unit tangent before or after t, which differ at a cusp. Requires at least two different points.
     PlanePoint tangent(double t, bool before) const;
     /// Computes the range of one coordinate over the whole curve.
@@ -32,7 +32,8 @@ CubicBezier quadratic(PlanePoint start, PlanePoint control, PlanePoint end);
 
 class BiarcApproximator {
   public:
-    /// `pattern` provides all fields except kind, plane, turns, centre and the end in the XY plane.
+    /// Starts the approximation of `curve`. `pattern` provides all fields of the moves except kind, plane, turns,
+    /// centre and the end in the XY plane.
     void begin(const CubicBezier& curve, const Move& pattern);
     /// Returns the next arc or line; false after the last one, which ends at the end of the pattern.
     bool next(Move& move);
@@ -40,7 +41,7 @@ class BiarcApproximator {
   private:
     struct Biarc {
         PlanePoint from, to, joint, tangent_in, tangent_out, tangent_joint;
-        std::array<double, 2> radius;  ///< > 0 counter-clockwise; 0: straight
+        std::array<double, 2> radius;  ///< radius of each arc, mm; > 0 counter-clockwise; 0: a line
         std::array<PlanePoint, 2> centre;
     };
 
@@ -52,8 +53,8 @@ class BiarcApproximator {
     CubicBezier curve_;
     Move pattern_;
     std::uint32_t at_ = 0;     ///< completed part of the curve, in steps of the finest division
-    std::uint32_t width_ = 0;  ///< width of the part tried last
-    std::size_t given_ = 2;    ///< emitted halves of biarc_
+    std::uint32_t width_ = 0;  ///< size of the part tried last, in the same steps
+    std::size_t given_ = 2;    ///< number of halves of biarc_ that were returned, 0 .. 2
     Biarc biarc_;
 };
 

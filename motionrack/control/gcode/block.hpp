@@ -13,7 +13,7 @@ namespace motionrack::control::gcode {
 /// Maximum number of characters in a line, without its end.
 inline constexpr std::size_t max_line_length = 1024;
 
-/// G codes are stored in tenths: G1 = 10, G38.2 = 382; M codes as they are.
+/// Modal groups of G codes. G codes are stored in tenths (G1 = 10, G38.2 = 382), M codes as they are.
 enum GroupG : std::uint8_t {
     g_nonmodal = 0,  ///< G4 G10 G28 G28.1 G30 G30.1 G53 G92 G92.1 G92.2 G92.3
     g_motion,        ///< G0 G1 G2 G3 G5 G5.1 G38.2 .. G38.5 G70 .. G72.2, G73 G74 G80 G81 .. G86 G89
@@ -82,20 +82,20 @@ struct Assignment {
 struct Block {
     std::string_view text;       ///< the line
     std::uint32_t words = 0;     ///< letters that are present, except G and M; A = bit 0
-    std::uint32_t g_groups = 0;  ///< groups that have a code
+    std::uint32_t g_groups = 0;  ///< G groups that have a code, one bit each
     std::uint32_t m_groups = 0;
     bool percent = false;     ///< the line is a lone %
     bool deleted = false;     ///< a line with '/' that was skipped
     bool has_o_word = false;  ///< an O word starts at `flow_column`; the rest of the line was not read
     std::uint16_t flow_column = 0;
     std::array<double, 26> value;          ///< valid for the letters in `words`
-    std::array<std::uint16_t, 26> column;  ///< from 0
+    std::array<std::uint16_t, 26> column;  ///< column of the letter, from 0
     std::array<std::int16_t, g_group_count> g;
     std::array<std::uint16_t, g_group_count> g_column;
     std::array<std::int16_t, m_group_count> m;
     std::array<std::uint16_t, m_group_count> m_column;
     std::vector<Comment> comments;
-    std::vector<Assignment> assignments;  ///< in order
+    std::vector<Assignment> assignments;  ///< assignments, in the order of the line
 
     bool has(char letter) const { return (words & letter_bit(letter)) != 0; }
     double operator[](char letter) const { return value[letter_index(letter)]; }

@@ -19,7 +19,7 @@ enum class Coordinates : std::uint8_t {
 
 struct CanonOptions {
     Coordinates coordinates = Coordinates::program;
-    bool numbered = true;  ///< with the first two columns of rs274: a running number and the N word of the line
+    bool numbered = true;  ///< prints the first two columns of rs274: a running number and the N word
 };
 
 /// Prints line by line. For each line call `interpreter.line(...)`, then `line(interpreter)`, which pulls the calls.

@@ -31,9 +31,9 @@ enum class Spindle : std::uint8_t { off, clockwise, counter_clockwise };
 enum class Probe : std::uint8_t {
     none,
     contact,     ///< G38.2: stops when the probe touches; an error if it does not
-    contact_if,  ///< G38.3: no error
+    contact_if,  ///< G38.3: as contact, but no error if the probe does not touch
     release,     ///< G38.4: stops when the probe leaves; an error if it does not
-    release_if   ///< G38.5: no error
+    release_if   ///< G38.5: as release, but no error if the probe does not leave
 };
 constexpr bool probe_leaves(Probe probe) {
     return probe == Probe::release || probe == Probe::release_if;
@@ -49,20 +49,20 @@ struct CanonCall {
     Spindle spindle = Spindle::off;
     bool mist = false;
     bool flood = false;
-    bool overridable = true;    ///< subject to the overrides (M48, M50 P1); end: of the program up to there
-    bool analog = false;        ///< output, input: E, not P
-    bool with_motion = false;   ///< output: at the start of the next move (M62, M63, M67), without a stop
-    bool awaits_input = false;  ///< dwell: wait of M66
+    bool overridable = true;    ///< subject to the overrides (M48, M50 P1); end: the feed override was enabled
+    bool analog = false;        ///< output, input: analog (E word); false: digital (P word)
+    bool with_motion = false;   ///< output: set at the start of the next move (M62, M63, M67), without a stop
+    bool awaits_input = false;  ///< dwell: waits for an input (M66)
     std::int32_t line = 0;      ///< line of the source, from 1
     std::int32_t tool = 0;
-    std::int32_t port = 0;  ///< output, input: number from 0
+    std::int32_t port = 0;  ///< output, input: number of the port, from 0
     double value = 0;       ///< output: 0 or 1 if not analog; input: -1 after a timeout
     double speed_rpm = 0;
     std::string_view text;  ///< points into the program text
     Move move;
 };
 
-/// Returns true if the call needs standstill.
+/// Returns true if the axes must stand still before the call is executed.
 constexpr bool needs_standstill(const CanonCall& step) {
     return step.kind == CanonCallKind::tool_change || step.kind == CanonCallKind::pause ||
            step.kind == CanonCallKind::end || step.kind == CanonCallKind::input ||

@@ -31,7 +31,7 @@ class CompensationQueue {
     const CanonCall* next();
     /// Returns true if the last call from next() was queued before the current line.
     bool was_held() const { return next_ <= of_lines_before_; }
-    /// Drops ready calls that were not taken.
+    /// Drops ready calls that next() has not returned.
     void begin_line() {
         if (!steps_.empty()) {
             next_ = ready_;
@@ -43,8 +43,8 @@ class CompensationQueue {
 
   private:
     std::vector<CanonCall> steps_;
-    std::size_t next_ = 0;   ///< taken
-    std::size_t ready_ = 0;  ///< final
+    std::size_t next_ = 0;   ///< number of calls that next() has returned
+    std::size_t ready_ = 0;  ///< number of calls that are final
     std::size_t of_lines_before_ = 0;
 };
 

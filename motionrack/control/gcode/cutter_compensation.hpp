@@ -9,11 +9,11 @@ class CutterCompensation : public MoveReader {
   public:
     using MoveReader::MoveReader;
 
-    /// G40 .. G42.1.
+    /// Executes G40 .. G42.1.
     bool select();
-    /// Checks for changes that compensation does not allow.
+    /// Refuses a line that changes what must not change while compensation is on.
     bool allows();
-    /// Converts the programmed move to that of the cutter, which waits until the next one is known.
+    /// Converts the programmed move to a move of the cutter centre, which waits until the next move is known.
     bool compensate();
     /// Handles the end of the program on this line.
     bool end_program();

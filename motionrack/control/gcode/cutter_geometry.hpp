@@ -22,12 +22,12 @@ struct CutterPath {
     bool arc = false;
     std::int32_t turns = 0;    ///< arc: as Move::turns
     PlanePoint start;          ///< offset from the start of the contour move
-    PlanePoint end;            ///< offset from its end
+    PlanePoint end;            ///< offset from the end of the contour move
     PlanePoint direction_in;   ///< unit vector along the contour at its start
-    PlanePoint direction_out;  ///< unit vector at its end
-    PlanePoint centre;         ///< arc
+    PlanePoint direction_out;  ///< unit vector along the contour at its end
+    PlanePoint centre;         ///< arc: its centre
     double radius_in = 0;      ///< arc: radius of the cutter path at its start
-    double radius_out = 0;     ///< at its end, which may differ by rounding
+    double radius_out = 0;     ///< arc: radius at its end, which may differ by rounding
     double sweep = 0;          ///< arc: rad from start to end, with the sign of `turns`
     double curvature = 0;      ///< curvature of the contour, 1/mm, > 0 counter-clockwise
 };
@@ -39,11 +39,11 @@ CutterPath offset_line(PlanePoint from, PlanePoint to, double offset);
 /// Computes the path beside an arc. Returns false if the cutter does not fit into it from inside.
 bool offset_arc(PlanePoint from, PlanePoint to, PlanePoint centre, std::int32_t turns, double offset, CutterPath& path);
 
-/// Returns the first straight move: from the current position to a point beside the end.
+/// Returns the straight lead-in: from the current position to the point beside the end of the move.
 CutterPath lead_in_line(PlanePoint from, PlanePoint to, double offset);
 
-/// Computes the first move if it is an arc: from the current position, tangent to the offset path at the end. Returns
-/// false if no arc does that.
+/// Computes the lead-in if it is an arc: from the current position, tangent to the offset path at the end. Returns
+/// false if no such arc exists.
 bool lead_in_arc(PlanePoint from, PlanePoint to, PlanePoint centre, std::int32_t turns, double offset,
                  CutterPath& path);
 

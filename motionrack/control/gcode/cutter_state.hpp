@@ -7,8 +7,8 @@ namespace motionrack::control::gcode {
 
 /// Effect of a line on the move that waits before it, and the move that waits after it.
 struct CompensationPlan {
-    bool joins = false;   ///< the waiting move follows `last`
-    bool around = false;  ///< followed by `arc`
+    bool joins = false;   ///< the waiting move is completed, along the path `last`
+    bool around = false;  ///< the inserted `arc` follows the waiting move
     bool begins = false;  ///< a move starts at `from` and waits along `path`
     CutterPath last;
     CutterPath path;
@@ -18,7 +18,7 @@ struct CompensationPlan {
     void clear() { joins = around = begins = false; }
 };
 
-/// Only CutterCompensation changes it.
+/// State of cutter compensation between lines; only CutterCompensation changes it.
 class CutterState {
   public:
     void begin_line() { held_.begin_line(); }
@@ -40,7 +40,7 @@ class CutterState {
     bool compensating_ = false;
     bool off_path_ = false;
     Point at_ = {};
-    CutterPath path_;  ///< that of the waiting move, from `from_`
+    CutterPath path_;  ///< path of the waiting move, which starts at `from_`
     PlanePoint from_;
     std::int32_t line_ = 0;  ///< line of the waiting move
     CompensationPlan plan_;

@@ -8,7 +8,7 @@
 
 namespace motionrack::control::gcode {
 
-/// Returns true if a G code in tenths is a cycle (a pecking cycle).
+/// Return true if a G code in tenths is a drilling cycle, and a drilling cycle that pecks.
 inline bool is_cycle(std::int16_t code) {
     return code >= 810 || code == 730 || code == 740;
 }
@@ -28,22 +28,22 @@ inline bool is_pecking(std::int16_t code) {
 /// clear; G85 F to r, T to clear; G86 dwells, stops the spindle, T to clear, starts it; G89 dwells, F to clear; G74 G84
 /// stop the spindle, reverse it, dwell, F to clear, stop it, restart it as before.
 struct DrillCycle {
-    std::int16_t code = 810;         ///< in tenths
-    Spindle spindle = Spindle::off;  ///< state before the cycle
+    std::int16_t code = 810;         ///< G code in tenths
+    Spindle spindle = Spindle::off;  ///< spindle state before the cycle
     double speed_rpm = 0;
-    std::uint8_t first = 0;  ///< axes of the plane
+    std::uint8_t first = 0;  ///< first axis of the plane, 0 .. 2
     std::uint8_t second = 1;
-    std::uint8_t third = 2;    ///< drilling axis
-    std::int32_t repeats = 1;  ///< holes, >= 1
+    std::uint8_t third = 2;    ///< drilling axis, 0 .. 2
+    std::int32_t repeats = 1;  ///< number of holes, >= 1
     double step_first = 0;     ///< distance between holes, also before the first one, mm
     double step_second = 0;
-    double level = 0;  ///< third axis before the first hole
+    double level = 0;  ///< position of the drilling axis before the first hole, mm
     double r = 0;
     double clear = 0;
     double bottom = 0;
-    double peck = 0;  ///< depth of one peck, > 0 for G73 and G83
+    double peck = 0;  ///< depth of one peck, mm, > 0 for G73 and G83
     double clearance = 0;
-    double seconds = 0;  ///< dwell at the bottom
+    double seconds = 0;  ///< duration of the dwell at the bottom, s
     Move pattern = {};   ///< feed rate, path control, line; end: first hole less one step
     Point from = {};     ///< current position
 };

@@ -62,7 +62,7 @@ class Interpreter {
     const Point& position() const {
         return state_.cutter.is_off_path() ? state_.cutter.at() : state_.travel.position();
     }
-    Point program_position() const;                                     ///< in the active work system, mm and degrees
+    Point program_position() const;  ///< position in the active work system, mm and degrees
     std::int32_t line_number() const { return state_.words.number(); }  ///< number of the last line
     /// Stores the result of the probing move of the last line (CanonCall::probe): the edge `at`, valid if `hit`, and
     /// the final position `stopped_at`. The next line starts there. Without this call the move counts as complete and
@@ -88,7 +88,7 @@ class Interpreter {
     const std::string& contour_label() const { return state_.contour.label; }
     /// Returns an interpreter for a contour: a copy without limits and with a feed rate, at the start of the cycle.
     Interpreter contour_interpreter() const;
-    /// Makes the moves of the lathe cycle. On an error it has none.
+    /// Makes the moves of the lathe cycle from its contour. On an error the line has no moves.
     Outcome<void> turn(std::vector<ContourSegment> contour);
     /// Resets the rotation of all work systems and enables the overrides.
     void reset_after_program();

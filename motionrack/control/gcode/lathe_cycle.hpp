@@ -30,7 +30,7 @@ constexpr bool is_turning(std::int16_t code) {
 struct ContourSegment {
     PlanePoint from, to;
     std::int32_t turns = 0;  ///< arc: 1 counter-clockwise, -1 clockwise, as Move::turns of G18; 0: line
-    PlanePoint centre;       ///< arc
+    PlanePoint centre;       ///< arc: its centre
     double corner = 0;  ///< at its end: radius of a fillet (A), or of the fillet whose chord is a chamfer (C); 0: none
     bool chamfer = false;
     std::int32_t line = 0;  ///< source line
@@ -38,7 +38,7 @@ struct ContourSegment {
 };
 
 struct LatheCycle {
-    std::int16_t code = 710;  ///< in tenths: 700, 710 711 712, 720 721 722
+    std::int16_t code = 710;  ///< G code in tenths: 700, 710 711 712, 720 721 722
     PlanePoint start;         ///< start of cutting
     double distance = 0;      ///< D: remaining stock on the contour; G70: distance of a pass before the first one
     double end_distance = 0;  ///< E of G70: distance of the last pass
@@ -66,8 +66,8 @@ std::string make_lathe_moves(const LatheCycle& plan, std::vector<ContourSegment>
 
 /// Orientation of the cycle in the plane: `first` along the cut, `second` away from the workpiece.
 struct CuttingOrientation {
-    bool swapped = false;  ///< along X
-    double along = 1;      ///< or -1
+    bool swapped = false;  ///< the cut is along X; false: along Z
+    double along = 1;      ///< direction of the cut on its axis, 1 or -1
     double away = 1;
 
     PlanePoint in(PlanePoint p) const {
@@ -79,13 +79,14 @@ struct CuttingOrientation {
     std::int32_t turns(std::int32_t seen) const { return (along * away > 0) != swapped ? seen : -seen; }
 };
 
-/// Inserts the fillets and chamfers; afterwards no segment has a corner radius.
+/// Inserts the fillets and chamfers; afterwards no segment has a corner radius. Returns an error sentence, or "".
 std::string insert_fillets(std::vector<ContourSegment>& contour);
 
 /// Splits arcs at their extremes of `second`. Returns an error sentence if the contour reverses along `first`.
 std::string make_monotone(std::vector<ContourSegment>& contour, char axis);
 
-/// Computes the contour at a distance >= 0 to its left, with arcs about convex corners.
+/// Computes the contour `beside` at a distance >= 0 (mm) to the left, with arcs about convex corners. Returns an error
+/// sentence, or "".
 std::string offset_contour(const std::vector<ContourSegment>& contour, double distance,
                            std::vector<ContourSegment>& beside);
 

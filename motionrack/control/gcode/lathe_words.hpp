@@ -11,7 +11,7 @@ class LatheWords : public MoveReader {
 
     /// Reads the words of the cycle. turn() makes its moves when the contour is known.
     bool read(std::int16_t code);
-    /// Makes the moves of the lathe cycle. On an error it has none.
+    /// Makes the moves of the lathe cycle from its contour. On an error the line has no moves.
     Outcome<void> turn(std::vector<ContourSegment> contour);
 
   private:

@@ -25,10 +25,10 @@ class LineWords {
     std::int32_t number() const { return number_; }
     Language language() const { return language_; }
 
-    /// Letters that a code of the line uses.
+    /// Returns the letters that a code of the line uses, one bit each.
     std::uint32_t used() const { return used_; }
     void use(std::uint32_t letters) { used_ |= letters; }
-    /// Uses the axis words for a code that is not a move.
+    /// Marks the axis words as used by a code that is not a move.
     void take_axis_words() {
         axis_words_taken_ = true;
         used_ |= axis_words;
@@ -45,7 +45,7 @@ class LineWords {
     void prefix_problem(std::string_view text) { problem_.message.insert(0, text); }
     /// Returns the stored error as that of line `number`.
     tl::unexpected<Problem> problem_of(std::int32_t number);
-    /// As problem_of(), for a line whose text is gone.
+    /// Returns the stored error as that of the earlier line `number`, whose text is no longer available.
     tl::unexpected<Problem> problem_of_earlier(std::int32_t number);
 
     std::size_t error_column() const;  ///< column of the motion word, or of the first axis or offset word

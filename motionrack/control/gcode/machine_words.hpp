@@ -9,7 +9,7 @@ class MachineWords : public WordReader {
   public:
     using WordReader::WordReader;
 
-    void apply_letters();                 ///< S and T
+    void apply_letters();                 ///< executes S and T
     bool change_tool();                   ///< M6
     bool set_tool();                      ///< M61
     bool set_spindle(std::int16_t code);  ///< M3 .. M5
@@ -20,7 +20,7 @@ class MachineWords : public WordReader {
     bool restore_saved();                 ///< M72
     /// M98 P L and M99 must be alone on the line; ProgramFlow executes them.
     bool check_program();
-    /// Restores modes that M70 or M73 saved.
+    /// Restores the modes `saved` by M70 or M73.
     void restore(const ModalState& saved);
 };
 

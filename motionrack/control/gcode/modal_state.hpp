@@ -31,31 +31,31 @@ struct ModalState {
     Spindle spindle = Spindle::off;
     bool mist = false;
     bool flood = false;
-    bool ended = false;               ///< after M2, M30
+    bool ended = false;               ///< the program was ended by M2 or M30
     bool feed_override = true;        ///< M48, M50
     bool speed_override = true;       ///< M48, M51
     bool feed_stop = true;            ///< M53
-    std::int32_t tool_selected = -1;  ///< by T; -1: none yet
-    std::int32_t tool_loaded = -1;    ///< by M6; -1: none yet
-    double cutter_radius_mm = 0;      ///< if `cutter` is not off
+    std::int32_t tool_selected = -1;  ///< tool selected by T; -1: none yet
+    std::int32_t tool_loaded = -1;    ///< tool loaded by M6; -1: none yet
+    double cutter_radius_mm = 0;      ///< radius of the compensation; used unless `cutter` is off
     double tolerance_mm = 0;
     double feed = 0;         ///< feed rate, G94: mm/s, G93: 1/s; 0: none yet
     double feed_rotary = 0;  ///< feed rate in G94 if no linear axis moves, degrees/s
     double speed_rpm = 0;
     std::uint32_t cycle_words = 0;  ///< bits of the next four words that were given since the cycle's G word
-    double cycle_r = 0;             ///< as written, mm
+    double cycle_r = 0;             ///< R word as written, mm
     double cycle_z = 0;             ///< word of the drilling axis, as written, mm
-    double cycle_q = 0;             ///< mm
-    double cycle_p = 0;             ///< seconds
-    PlanePoint spline_end;          ///< last G5: P and Q, mm
+    double cycle_q = 0;             ///< Q word (peck), mm
+    double cycle_p = 0;             ///< P word (dwell), s
+    PlanePoint spline_end;          ///< P and Q of the last G5, mm
     PlanePoint spline_at;           ///< end of the last G5
     double cycle_level = 0;         ///< G98: machine coordinate of the drilling axis before the first hole
 };
 
 class Modes {
   public:
-    const ModalState& now() const { return now_; }  ///< after the last line
-    /// State after the current line; it becomes the active one when the line is valid.
+    const ModalState& now() const { return now_; }  ///< modal state after the last line
+    /// Returns the state after the current line; it becomes the active one when the line is valid.
     ModalState& next() { return next_; }
     const ModalState& next() const { return next_; }
     void begin_line() { next_ = now_; }
@@ -68,13 +68,14 @@ class Modes {
     /// Applies the state after M2 and M30 that Grbl and LinuxCNC reset.
     void end_program();
 
-    /// M70 saves the modes, M71 discards them, M73 saves them until the call ends. `level`: the call depth.
+    /// Executes M70 (saves the modes), M71 (discards the saved ones) or M73 (saves the modes until the call ends).
+    /// `level`: the call depth, 0 in the main program.
     void save(int code, std::size_t level);
-    /// Returns null if there are none.
+    /// Returns the modes saved at this call depth; null if there are none.
     const ModalState* saved(std::size_t level) const;
-    /// M72; spindle and coolant are not affected.
+    /// Restores saved modes (M72); spindle and coolant are not affected.
     void restore(const ModalState& saved);
-    /// Drops the modes of a call that ends; returns those that M73 saved.
+    /// Drops the saved modes of a call that ends; returns those that M73 saved.
     std::optional<ModalState> leave_call(std::size_t level);
     /// Returns true if cutter compensation can stay on with the restored modes.
     bool can_stay_beside(const ModalState& saved) const;
@@ -87,7 +88,7 @@ class Modes {
 
     ModalState now_;
     ModalState next_;
-    std::vector<SavedModes> kept_;  ///< by call depth
+    std::vector<SavedModes> kept_;  ///< saved modes, indexed by call depth
 };
 
 }  // namespace motionrack::control::gcode

@@ -32,7 +32,7 @@ inline char to_lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
 }
 
-/// As scan_number, for the rare cases: blanks inside, long numbers, errors.
+/// Reads a number as scan_number(), but also the rare ones: blanks inside, many digits, errors.
 Number scan_number_slow(const char*& at, const char* end);
 
 /// Reads the number at `at` and moves `at` behind it and the following blanks. Up to about 15 digits need one division,

@@ -11,7 +11,7 @@ class Offsets {
   public:
     void start(const Settings& settings);
 
-    const WorkFrame& frame() const { return frame_; }  ///< after the last line
+    const WorkFrame& frame() const { return frame_; }  ///< frame after the last line
     const ToolTable& tools() const { return tools_; }
     /// Returns the frame with the changes of the current line.
     const WorkFrame& next_frame() const { return frame_edited_ ? next_frame_ : frame_; }
@@ -21,7 +21,7 @@ class Offsets {
         frame_edited_ = false;
         tool_edited_.reset();
     }
-    /// Returns the frame that applies from the current line on, if it is valid.
+    /// Returns the frame for changes by the current line; it becomes active if the line is valid.
     WorkFrame& edit_frame();
     void edit_tool(const Tool& tool) { tool_edited_ = tool; }
     void commit();
@@ -36,7 +36,7 @@ class Offsets {
     ToolTable tools_;
     WorkFrame next_frame_;
     bool frame_edited_ = false;
-    std::optional<Tool> tool_edited_;  ///< by G10 L1, L10, L11
+    std::optional<Tool> tool_edited_;  ///< tool as changed by G10 L1, L10 or L11
 };
 
 }  // namespace motionrack::control::gcode

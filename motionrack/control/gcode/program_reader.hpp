@@ -38,7 +38,7 @@ class ProgramReader {
 
     const Interpreter& interpreter() const { return interpreter_; }
     const ProgramFlow& program_flow() const { return program_flow_; }
-    /// See Interpreter::set_probe_result(); call after the probing call, before the next one.
+    /// Stores the result of a probing call before next() is called again; see Interpreter::set_probe_result().
     void set_probe_result(bool hit, const Point& at, const Point& stopped_at) {
         interpreter_.set_probe_result(hit, at, stopped_at);
     }
@@ -53,20 +53,20 @@ class ProgramReader {
     std::int64_t further_steps_ = 0;  ///< calls other than the first one of each line
 };
 
-/// Findings of one pass over a program.
+/// Errors and totals found by reading a program once.
 struct ProgramCheck {
     std::vector<Problem> problems;  ///< in line order
     bool more_problems = false;     ///< stopped early at the requested number of problems
-    std::int64_t lines = 0;         ///< read
-    std::int64_t moves = 0;         ///< rapids, feed moves and arcs
+    std::int64_t lines = 0;         ///< number of lines read
+    std::int64_t moves = 0;         ///< number of rapids, feed moves and arcs
     std::int64_t dwells = 0;
-    bool ended = false;  ///< by M2 or M30
-    Point min = {};      ///< over all targets, in machine coordinates, including the start
+    bool ended = false;  ///< the program ended with M2 or M30
+    Point min = {};      ///< smallest machine coordinates of the start and all targets
     Point max = {};
     double seconds_of_dwells = 0;
 };
 
-/// Reads a program to its end without storing it, and collects up to `max_problems` (>= 1).
+/// Reads a program to its end without storing it, and collects up to `max_problems` errors (>= 1).
 ProgramCheck check_program(std::string_view text, const Settings& settings, std::size_t max_problems,
                            const std::string& file = {});
 

@@ -12,8 +12,8 @@
 
 namespace motionrack::control::gcode {
 
-inline constexpr int work_offset_count = 9;       ///< G54 .. G59, G59.1 .. G59.3
-inline constexpr int grbl_work_system_count = 6;  ///< those available to lines from a sender
+inline constexpr int work_offset_count = 9;       ///< number of work systems: G54 .. G59, G59.1 .. G59.3
+inline constexpr int grbl_work_system_count = 6;  ///< number of work systems for lines from a sender: G54 .. G59
 
 /// Provides the text of a subprogram that a program calls by name but does not contain. The sentence of an error
 /// continues after "and".
@@ -29,7 +29,7 @@ struct Settings {
     double path_tolerance_mm = 0.01;   ///< default tolerance of G64 without P; >= 0
     double peck_clearance_mm = 0.254;  ///< G83 rapids back to this distance above the drilled depth; >= 0
     Point start = {};                  ///< initial position, machine coordinates
-    std::array<Point, work_offset_count> work_offsets = {};  ///< initial values, mm and degrees
+    std::array<Point, work_offset_count> work_offsets = {};  ///< initial work offsets, mm and degrees
     Point g28 = {};                                          ///< target of G28, machine coordinates
     Point g30 = {};                                          ///< target of G30, machine coordinates
     ToolTable tools = {};  ///< for G43, G41 and G42; empty: any tool number is valid, with zero length and diameter

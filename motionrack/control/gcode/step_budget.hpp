@@ -1,4 +1,4 @@
-// Budget of the moves that a program may make: loops of drilling cycles that never end are found by it.
+// Budget of the moves that a program may make. It detects drilling cycles in a loop that never ends.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 namespace motionrack::control::gcode {
 
-/// Counts lines against the calls that they have made.
+/// Compares the number of calls with the budget: 16 for each line, plus `max_steps`.
 class StepBudget {
   public:
-    /// See Settings::max_steps.
+    /// `max_steps`: see Settings::max_steps.
     explicit StepBudget(std::int64_t max_steps) : max_steps_(max_steps) {}
 
     /// Counts a line of `program_flow`; call before it is read. `further_steps`: calls so far, without the first one of
-    /// each line. Errors: they are too many; the program ends there.
+    /// each line. Errors: too many calls; the program ends there.
     Outcome<void> take_line(std::string_view text, std::int64_t further_steps, ProgramFlow& program_flow);
 
   private:

@@ -38,7 +38,7 @@ class StepQueue {
     struct StepSources {
         const LineWords& words;
         Modes& modes;      ///< changed by the end of the program
-        Offsets& offsets;  ///< as `modes`
+        Offsets& offsets;  ///< changed by the end of the program
         const Travel& travel;
         CompensationQueue& held;
     };
@@ -58,11 +58,11 @@ class StepQueue {
     void add(std::uint32_t todo) { todo_ |= todo; }
     void add_comments();
     void add_dwell(double seconds);
-    /// M66: waits for an input.
+    /// Adds the wait of M66 for an input, at most `seconds`.
     void add_wait(double seconds);
     void add_port(double value);
     void add_stop(std::int16_t code);
-    /// Adds the one move in moving().
+    /// Adds the move in moving() as it is.
     void add_move() { add_motion(Motion::single); }
     /// Adds the move in moving() as two, to `via` and to its end.
     void add_move_via(const Point& via);
@@ -70,9 +70,9 @@ class StepQueue {
     /// Adds a curve with the fields of the move in moving().
     void add_spline(const CubicBezier& curve);
     void add_turning(std::vector<LatheMove> moves);
-    /// Returns the move of the line.
+    /// Returns the move of the line, for the words to fill.
     CanonCall& moving() { return moving_; }
-    /// Returns the texts of the comments with values; the others are empty.
+    /// Returns a text for each comment of the line: with values inserted for DEBUG and PRINT, otherwise empty.
     std::vector<std::string>& shown() { return shown_; }
     double port_value() const { return port_value_; }
 
@@ -80,7 +80,7 @@ class StepQueue {
     bool ends_program() const { return has(todo_stop) && (stop_code_ == 2 || stop_code_ == 30); }
     bool is_end_pending() const { return end_pending_; }
     bool is_probing() const { return has(todo_motion) && moving_.probe != Probe::none; }
-    /// Completes a valid line; `position` is that before it.
+    /// Completes a valid line. `position`: the position before it; `overridable`: its move is subject to the overrides.
     void commit(const Point& position, bool overridable);
     /// Applies the end of the program, unless that was done. Runs when the end is pulled, so that the moves before it
     /// on the line keep their frame.
@@ -112,8 +112,8 @@ class StepQueue {
     std::size_t comments_pulled_ = 0;
     std::vector<std::string> shown_;
     double dwell_seconds_ = 0;
-    double wait_seconds_ = 0;  ///< M66
-    double port_value_ = 0;    ///< M62 .. M68
+    double wait_seconds_ = 0;  ///< timeout of M66, s
+    double port_value_ = 0;    ///< value of M62 .. M68
     Point dwell_at_ = {};
     std::int16_t stop_code_ = 0;
     bool end_pending_ = false;

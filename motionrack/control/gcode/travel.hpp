@@ -12,11 +12,11 @@ inline constexpr double limit_slack = 1e-6;
 class Travel {
   public:
     void start(const Settings& settings);
-    /// Removes the limits; all axes are present then.
+    /// Removes the limits, and makes all axes present.
     void remove_limits();
 
     const Point& position() const { return position_; }  ///< machine coordinates after the last line
-    /// End of the current line; it becomes the position when the line is valid.
+    /// Returns the end of the current line; it becomes the position when the line is valid.
     Point& end() { return end_; }
     const Point& end() const { return end_; }
     void begin_line() { end_ = position_; }
@@ -24,7 +24,7 @@ class Travel {
     /// Continues from a position that no line of the program reached.
     void move_to(const Point& position) { position_ = position; }
 
-    const Point& low() const { return low_; }  ///< limits with limit_slack
+    const Point& low() const { return low_; }  ///< lower limits less limit_slack
     const Point& high() const { return high_; }
     bool contains(int axis, double value) const { return value >= low_[axis] && value <= high_[axis]; }
     std::uint32_t present_words() const { return present_words_; }  ///< letters of the axes that are present

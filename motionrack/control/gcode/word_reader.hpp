@@ -18,11 +18,11 @@ class WordReader {
   protected:
     const Settings& settings() const { return in_.settings; }
     const Block& block() const { return in_.words.block(); }
-    const ModalState& modes() const { return in_.modes.now(); }  ///< after the last line
-    ModalState& next() const { return in_.modes.next(); }        ///< after this line
+    const ModalState& modes() const { return in_.modes.now(); }  ///< modal state after the last line
+    ModalState& next() const { return in_.modes.next(); }        ///< modal state after this line
     Offsets& offsets() const { return in_.offsets; }
-    const WorkFrame& frame() const { return in_.offsets.frame(); }           ///< after the last line
-    const WorkFrame& frame_now() const { return in_.offsets.next_frame(); }  ///< with the changes of this line
+    const WorkFrame& frame() const { return in_.offsets.frame(); }           ///< frame after the last line
+    const WorkFrame& frame_now() const { return in_.offsets.next_frame(); }  ///< frame with the changes of this line
     WorkFrame& edit_frame() const { return in_.offsets.edit_frame(); }
     const ToolTable& tools() const { return in_.offsets.tools(); }
     Travel& travel() const { return in_.travel; }

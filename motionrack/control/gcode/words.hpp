@@ -1,4 +1,4 @@
-// One row for each G and M code: everything that other parts have to know of it.
+// The table of G and M codes: one row for each code, with all properties that other parts use.
 //
 // A new code is a row here and the function that executes it.
 #pragma once
@@ -23,7 +23,7 @@ enum class WordPhase : std::uint8_t {
     modes,    ///< modal G codes, then F
     once,     ///< non-modal G codes
     motion,   ///< the active motion code, by MotionWords
-    io,       ///< M62 .. M68, which take the words that are left
+    io,       ///< M62 .. M68, which use the words that are left
     saving    ///< M70, M71, M73: when the line is valid
 };
 
@@ -34,12 +34,12 @@ struct WordRule {
     std::int16_t code;   ///< G code in tenths; M code as written
     std::uint8_t group;  ///< GroupG or GroupM
     WordPhase phase = WordPhase::none;
-    WordHandler handler = nullptr;  ///< null: other words of the line look for the code
+    WordHandler handler = nullptr;  ///< null: the handlers of other words check for the code
     std::uint32_t letters = 0;      ///< words that the code may use, besides F, N, S and T
     std::string_view help = {};
-    bool stands_first = false;  ///< as Grbl: all earlier motion ends before it
-    /// Why the code is refused, with a remedy, as it follows the name of the code. A code with a group is refused only
-    /// in lines from a sender.
+    bool stands_first = false;  ///< all earlier motion ends before this code, as in Grbl
+    /// Reason why the code is refused, with a remedy; follows the name of the code in messages. A code with a group is
+    /// refused only in lines from a sender.
     std::string_view refusal = {};
 };
 
@@ -51,7 +51,7 @@ const WordRule& rule_of_g(int tenths);
 /// Returns the row of an M code, or one with m_unknown.
 const WordRule& rule_of_m(int code);
 
-/// Returns docs/reference/gcode.md.
+/// Returns the text of docs/reference/gcode.md, generated from the table.
 std::string gcode_reference();
 
 /// Executes the codes of the last line that belong to this phase.

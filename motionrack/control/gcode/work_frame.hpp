@@ -11,8 +11,8 @@ struct WorkFrame {
     std::array<Point, work_offset_count> work = {};
     std::array<double, work_offset_count> rotation_deg = {};  ///< degrees, counter-clockwise seen from above
     Point g92 = {};
-    Point g92_saved = {};  ///< restored by G92.3
-    Point tool = {};       ///< G43, G43.1, G43.2
+    Point g92_saved = {};  ///< G92 shift that G92.3 restores
+    Point tool = {};       ///< active tool offset (G43, G43.1, G43.2)
     Point g28 = {};
     Point g30 = {};
     Point probe = {};        ///< machine coordinates of the last probe edge, or the end of the move without one
@@ -20,7 +20,7 @@ struct WorkFrame {
 
     // Set by activate() for the active system:
     Point offset = {};  ///< sum of work, G92 and tool: machine less program coordinates without rotation
-    Point base = {};    ///< work and tool
+    Point base = {};    ///< sum of work and tool offset
     bool is_rotated = false;
     double cosine = 1;
     double sine = 0;
@@ -33,7 +33,7 @@ struct WorkFrame {
     Point rotate(const Point& distance) const;
 };
 
-/// Cosine and sine of an angle in degrees; exact for multiples of 90 degrees.
+/// Cosine and sine of an angle given in degrees; exact for multiples of 90 degrees.
 struct Rotation {
     double cosine;
     double sine;

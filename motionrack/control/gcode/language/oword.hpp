@@ -31,10 +31,10 @@ struct OWordStatement {
     bool computed = false;  ///< o#1 call, o[#1 + 1] call: its value starts behind the O
     OWord word = OWord::sub;
     std::uint16_t column = 0;  ///< column of the O, from 0
-    std::uint16_t rest = 0;    ///< start of the arguments, or the end of the line
+    std::uint16_t rest = 0;    ///< column of the arguments, or the end of the line
 };
 
-/// "while"
+/// Returns an O word as written: "while".
 std::string_view name_of(OWord word);
 
 /// Parses the line whose O word starts at `column` (from 0). Returns false with the error, without the line number, in

@@ -8,7 +8,7 @@
 
 namespace motionrack::control::gcode {
 
-/// No related location.
+/// Index of a location that does not exist.
 inline constexpr std::int32_t no_location = -1;
 
 /// A line with an O word. Locations are indices into OWordIndex::places.
@@ -22,13 +22,13 @@ inline constexpr std::int32_t no_location = -1;
 struct OWordLocation {
     OWord word = OWord::sub;
     std::uint16_t column = 0;  ///< column of the O word, from 0
-    std::uint16_t rest = 0;    ///< column of its arguments
-    std::int32_t line = 0;     ///< from 1
+    std::uint16_t rest = 0;    ///< column of its arguments, from 0
+    std::int32_t line = 0;     ///< line number, from 1
     std::int32_t label = 0;    ///< equal labels have equal numbers
     std::int32_t begin = no_location;
     std::int32_t branch = no_location;
     std::int32_t end = no_location;
-    std::string_view text;  ///< the line
+    std::string_view text;  ///< text of the line
     ProgramLines before;    ///< position before the line
     ProgramLines after;     ///< position after the line
 
@@ -37,8 +37,8 @@ struct OWordLocation {
 
 struct OWordIndex {
     std::vector<OWordLocation> locations;                       ///< in line order
-    std::map<std::string, std::int32_t, std::less<>> subs;      ///< by label
-    std::map<std::string, std::int32_t, std::less<>> programs;  ///< numbered programs: O100 .. M99
+    std::map<std::string, std::int32_t, std::less<>> subs;      ///< locations of the subs, by label
+    std::map<std::string, std::int32_t, std::less<>> programs;  ///< as `subs`, for numbered programs (O100 .. M99)
     std::vector<Problem> problems;                              ///< errors in the pairing, without the file
     std::int32_t lines = 0;                                     ///< number of lines of the text
 

@@ -11,7 +11,7 @@ namespace motionrack::control::gcode {
 
 /// A value that cannot be evaluated.
 struct OWordFault {
-    std::size_t column = 0;  ///< from 0
+    std::size_t column = 0;  ///< column of the error, from 0
     std::string message;
 };
 

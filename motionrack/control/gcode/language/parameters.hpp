@@ -24,12 +24,12 @@ inline bool is_global(std::string_view name) {
 /// Parameters set by the program, without those of the machine. Copies are independent.
 class Parameters {
   public:
-    /// 1 .. last_parameter; 0 if it was never set.
+    /// Returns #number, 1 .. last_parameter; 0 if it was never set.
     double numbered(int number) const { return numbered_.empty() ? 0 : numbered_[static_cast<std::size_t>(number)]; }
     void set(int number, double value);
     std::optional<double> named(std::string_view name) const;
     void set(const std::string& name, double value);
-    /// Returns the number of names that can be added in the scope of this one.
+    /// Returns the number of names that can still be added in the scope of `name`.
     std::size_t capacity_for(std::string_view name) const;
 
     /// Starts a call with its own names and #1 .. #30 (the arguments, or 0). Returns false at max_call_depth.
@@ -38,7 +38,7 @@ class Parameters {
     bool enter();
     /// Ends a call: restores #1 .. #30 if they were local, and stores the return value, if any.
     void leave(std::optional<double> returned);
-    /// 0: the main program.
+    /// Returns the depth of nested calls; 0 in the main program.
     int level() const { return static_cast<int>(calls_.size()); }
     /// Returns the value of the last call that ended.
     std::optional<double> returned() const { return returned_; }

@@ -52,7 +52,7 @@ class ProgramFlow {
     /// Processes a line with an error: completes the position in `problem` and checks for the end of the program.
     void line_rejected(std::string_view text, Problem& problem);
 
-    /// Returns true if O words do not match; nothing more is executed then.
+    /// Returns true if O words of the text do not match, as an if without endif; nothing more is executed then.
     bool has_faults() const { return texts_.has_faults(); }
     Problem take_fault() { return texts_.take_fault(); }
 
@@ -62,7 +62,7 @@ class ProgramFlow {
         ProgramLines back;
         ProgramTexts::ProgramSource* source = nullptr;
         std::int32_t called_at = 0;
-        std::int32_t program = no_location;  ///< numbered program: its start
+        std::int32_t program = no_location;  ///< location of the numbered program; no_location: a sub
         std::int64_t left = 0;               ///< remaining repetitions
     };
 
@@ -100,11 +100,11 @@ class ProgramFlow {
 
     ProgramLines lines_;
     bool over_ = false;
-    ProgramEndDetector end_;  ///< for the text of the program
+    ProgramEndDetector end_;  ///< finds the end in the text of the program
     std::int32_t called_at_ = 0;
     std::int32_t furthest_ = 0;
     std::int64_t max_lines_;
-    std::int64_t walked_ = 0;        ///< lines, up to the last jump
+    std::int64_t walked_ = 0;        ///< number of lines executed up to the last jump
     std::int32_t counted_from_ = 0;  ///< target line of the last jump
     SubprogramSource subprogram_;
     ProgramTexts texts_;

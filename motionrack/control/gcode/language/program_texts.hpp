@@ -38,15 +38,15 @@ class ProgramTexts {
     /// Finds a sub or a numbered program in the indexed texts, first in `here`. Returns false if none has it.
     bool find(ProgramSource& here, const std::string& label, bool numbered, SubTarget& target) const;
 
-    /// Returns true if O words do not match.
+    /// Returns true if O words of a text do not match, as an if without endif.
     bool has_faults() const { return !faults_.empty(); }
     void add_fault(Problem fault) { faults_.push_back(std::move(fault)); }
-    /// Removes the first fault. Requires one.
+    /// Removes and returns the first fault. Requires has_faults().
     Problem take_fault();
 
   private:
     bool block_delete_;
-    std::vector<std::unique_ptr<ProgramSource>> sources_;  ///< first the program
+    std::vector<std::unique_ptr<ProgramSource>> sources_;  ///< the first one is the program
     std::vector<Problem> faults_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace motionrack::control::gcode {
 
-/// Knows a loop by the location of its repeat. Only loops of the present call are changed.
+/// Active repeat loops, identified by the location of their repeat. Only loops of the present call are changed.
 class RepeatLoops {
   public:
     void begin(std::int32_t location, std::int64_t times) { loops_.push_back({location, times}); }
@@ -17,7 +17,7 @@ class RepeatLoops {
     void end_between(std::int32_t first, std::int32_t last);
 
     void enter_call() { outer_.push_back(loops_.size()); }
-    /// Ends the loops of the call.
+    /// Ends all loops of the present call.
     void end_all() { loops_.resize(outer_.back()); }
     /// Ends the call with its loops.
     void leave_call();
@@ -25,7 +25,7 @@ class RepeatLoops {
   private:
     struct ActiveRepeat {
         std::int32_t location = 0;
-        std::int64_t left = 0;  ///< iterations, with the present one
+        std::int64_t left = 0;  ///< remaining iterations, including the present one
     };
     std::vector<ActiveRepeat> loops_;  ///< the innermost last
     std::vector<std::size_t> outer_;   ///< number of loops before each call
