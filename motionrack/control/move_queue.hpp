@@ -25,11 +25,11 @@ struct QueueEntry {
     double seconds = 0;       ///< duration of a submitted move
     std::int64_t number = 0;  ///< number of a move in its plan, if the plan counts them
     bool last = true;         ///< last slice of its move
-    bool by_hand = false;     ///< not from a line
+    bool by_hand = false;     ///< the move does not come from a line
     bool is_probe() const { return step.probe != gcode::Probe::none; }
     bool is_overridable() const { return !by_hand && step.overridable; }
     bool is_move() const { return step.kind == gcode::CanonCallKind::move && !is_probe(); }
-    /// Applies the overrides to its move.
+    /// Sets the feed rate and the rapid override of `move`, which belongs to this entry.
     void override_feed(Move& move, double feed, double rapid) const {
         if (is_overridable()) move.feed = step.move.feed * feed;
         if (step.overridable) move.rapid_override = rapid;
@@ -58,7 +58,7 @@ class MoveQueue {
     void pull(gcode::Interpreter& interpreter);
     /// Adds a move that does not come from a line.
     void add_by_hand(const Move& move);
-    /// Continues from another position.
+    /// Sets the position at which the next entry starts.
     void set_position(const Point& position) { read_to_ = position; }
     /// Sets the callback for each move (dwells included) as it was read, before it is sliced.
     void on_move(OnMove call) { on_move_ = std::move(call); }
@@ -69,40 +69,40 @@ class MoveQueue {
     const QueueEntry& front() const { return entries_.front(); }
     QueueEntry& operator[](std::size_t i) { return entries_[i]; }
     const QueueEntry& operator[](std::size_t i) const { return entries_[i]; }
-    /// Number of moves and dwells, as read, that have not ended.
+    /// Returns the number of moves and dwells, as read, that have not ended.
     std::size_t moves() const { return moves_; }
-    /// Number of calls read so far, without the first one of each line.
+    /// Returns the number of calls read so far, without the first one of each line.
     std::int64_t further_steps() const { return further_steps_; }
     bool probe_waits() const { return probe_waits_; }
 
     // ---- planning
-    /// Number of entries that the plan has taken.
+    /// Returns the number of entries that the plan has taken.
     std::size_t planned() const { return planned_; }
     bool all_planned() const { return planned_ == entries_.size(); }
     /// Returns true if no call of the last line is left to read.
     bool all_read() const { return !unpulled_ && !cutting_; }
     QueueEntry& next() { return entries_[planned_]; }
     void take_next() { ++planned_; }
-    /// Number of entries up to the last submitted move, if the plan counts them.
+    /// Returns the number of entries up to the last submitted move, if the plan counts them.
     std::size_t submitted() const { return submitted_; }
     /// Counts the next moves as submitted; together they take `seconds`.
     void submit(std::int32_t moves, double seconds);
     double submitted_seconds() const;
 
     // ---- passing
-    /// Removes the first entry, which the machine has passed. An event is reported.
+    /// Removes the first entry, which the machine has passed, and reports it if it is an event.
     void pop();
     /// Removes entries until this many moves are removed.
     void pop_moves(std::int64_t moves);
     /// Removes all submitted entries.
     void pop_submitted();
-    /// Removes the planned entries up to the last move with a number below this one.
+    /// Removes the planned entries up to the last move whose number is below `number`.
     void pop_before(std::int64_t number);
-    /// Counts planned moves that the machine has passed.
+    /// Adds to the number of planned moves that the machine has passed.
     void pass_blocks(std::int64_t blocks) { passed_ += blocks; }
-    /// Number of planned moves that the machine has passed since the start.
+    /// Returns the number of planned moves that the machine has passed since the start.
     std::int64_t passed_blocks() const { return passed_; }
-    /// Line of the entry that was begun last; 0: none.
+    /// Returns the line of the entry that was begun last; 0: none.
     std::int32_t line() const { return line_; }
     void set_line(std::int32_t line) { line_ = line; }
     /// Sets the callback for events, called in order when the machine passes them. `after_move`: see
@@ -110,7 +110,7 @@ class MoveQueue {
     void on_event(OnEvent call) { on_event_ = std::move(call); }
 
     // ---- standstill
-    /// Discards everything.
+    /// Discards all entries and unread calls; the next entry starts at `position`.
     void clear(const Point& position);
     /// Removes a probing move that has ended at `position`.
     void end_probe(const Point& position);
@@ -135,17 +135,17 @@ class MoveQueue {
 
     MoveQueueSettings settings_;
     PathLimits limits_;
-    std::deque<QueueEntry> entries_;  ///< front: executing
+    std::deque<QueueEntry> entries_;  ///< the first one is executing
     std::optional<Cutting> cutting_;
     Point read_to_;          ///< end of the last entry
-    std::int64_t read_ = 0;  ///< moves and dwells
+    std::int64_t read_ = 0;  ///< number of moves and dwells read
     std::int64_t further_steps_ = 0;
-    std::size_t moves_ = 0;  ///< in entries_ and cutting_
+    std::size_t moves_ = 0;  ///< number of moves and dwells, as read, in entries_ and cutting_
     std::size_t planned_ = 0, submitted_ = 0;
     std::int64_t passed_ = 0;
     std::int32_t line_ = 0;
     bool unpulled_ = false;     ///< some calls of the last line are not yet in entries_
-    bool line_begins_ = false;  ///< none of them is
+    bool line_begins_ = false;  ///< no call of the last line is in entries_ yet
     bool probe_waits_ = false;  ///< entries_ has a probing move, followed only by events
     OnMove on_move_;
     OnEvent on_event_;

@@ -16,11 +16,11 @@ inline constexpr double tangent_angle_rad = 1.7453292519943295e-4;
 /// compared relative to their own size.
 bool is_same_direction(const Point& in, const Point& out);
 
-/// Per unit of path length and second.
+/// Limits along a path, per unit of its length and second.
 struct AlongPathLimits {
     double velocity = 0;  ///< the feed rate, or less where an axis or the centripetal acceleration requires it
     double accel = 0;     ///< for acceleration and deceleration, at every point of the path
-    double jerk = 0;      ///< straight moves whose axes all have a jerk limit; otherwise 0
+    double jerk = 0;      ///< for straight moves whose axes all have a jerk limit; otherwise 0: no limit
 };
 
 /// The axis limits, prepared so that a move costs a few products and one division.

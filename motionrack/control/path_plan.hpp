@@ -12,7 +12,7 @@
 
 namespace motionrack::control {
 
-/// What a plan is made with.
+/// Settings of a plan of the path ahead.
 struct PathPlanSettings {
     MachineLimits limits = {};
     double accel_reserve = 0;  ///< share of each axis' acceleration that is left to the card, 0 .. 0.5
@@ -57,23 +57,23 @@ class PathPlan {
     /// Returns true if motion may continue although no planned move is ready.
     virtual bool may_go_on(const PathOutlook& outlook) const = 0;
 
-    /// Begins to count submitted moves: a new path of the axes.
+    /// Starts a new path of the axes: forgets the submitted moves of the previous one.
     void begin_path() { blocks_.clear(); }
     /// Notes that a planned move was submitted.
     virtual void submit(MoveQueue& queue, const PlannedMove& planned) = 0;
-    /// Notes that the axes have begun the submitted move this many behind the present one.
+    /// Notes that the axes have begun the `blocks`-th submitted move after the present one.
     virtual void pass(MoveQueue& queue, std::int64_t blocks) = 0;
     /// Notes that the path ended at standstill: all submitted moves are passed.
     virtual void finish(MoveQueue& queue) = 0;
-    /// Number of moves in the executing submitted move and the one behind it, of which the axes may have begun both.
+    /// Returns the number of queued moves in the executing planned move and the next one; the axes may have begun both.
     virtual std::int64_t moves_begun() const { return 0; }
-    /// Rapid override of the submitted rapids that cannot be slowed down on their way, the highest; 0: there are none.
+    /// Returns the highest rapid override of the submitted rapids that cannot be slowed down on their way; 0: none.
     double rapid_override() const {
         double highest = 0;
         for (const SubmittedMove& block : blocks_) highest = std::max(highest, block.rapid_override);
         return highest;
     }
-    /// Notes that the path was interrupted.
+    /// Notes that the path was interrupted: the axes discarded the submitted moves.
     void interrupt(MoveQueue& queue) {
         queue.pass_blocks(static_cast<std::int64_t>(blocks_.size()));
         blocks_.clear();
@@ -81,7 +81,7 @@ class PathPlan {
 
   protected:
     struct SubmittedMove {
-        std::int64_t number = 0;    ///< defined by each plan
+        std::int64_t number = 0;    ///< number whose meaning each plan defines
         double rapid_override = 0;  ///< override of a whole rapid that is subject to it
     };
     std::deque<SubmittedMove> blocks_;  ///< submitted moves from the executing one on
@@ -91,7 +91,7 @@ class PathPlan {
 std::unique_ptr<PathPlan> make_trapezoidal_plan(const PathPlanSettings& settings, const AxisGroup& axes,
                                                 const Point& start);
 
-/// Makes a plan with limited jerk. `host`: its time tells when a sender is silent.
+/// Makes a plan with limited jerk. `host`: provides the time, to detect that a sender sends no more lines.
 std::unique_ptr<PathPlan> make_jerk_limited_plan(const PathPlanSettings& settings, const AxisGroup& axes,
                                                  const Point& start, Interrupt& host);
 

@@ -64,8 +64,8 @@ class ProgramExecutor {
     std::unique_ptr<TrajectoryPlanner> planner_;
     PlanSummary summary_;
     std::int64_t blocks_ = 0;
-    std::int64_t read_ = 0;  ///< moves and dwells
-    Point read_to_ = {};     ///< end of the last of them
+    std::int64_t read_ = 0;  ///< number of moves and dwells read
+    Point read_to_ = {};     ///< end of the last move read
     int line_ = 0;           ///< line of the move that was submitted last
     bool held_ = false;
     std::function<void(std::int64_t, const PlannedMove&)> on_block_;

@@ -35,8 +35,8 @@ struct ProgramResult {
     std::int64_t moves = 0;  ///< moves read, without dwells
     std::vector<ProgramEvent> events;
     std::int64_t events_left_out = 0;
-    std::vector<ProgramProbe> probes;  ///< limited to the same number as the events
-    bool ended = false;                ///< by M2 or M30
+    std::vector<ProgramProbe> probes;  ///< at most max_events of them
+    bool ended = false;                ///< the program ended with M2 or M30
 
     void add(ProgramEvent event);
     /// Adds a probing move, and its event.

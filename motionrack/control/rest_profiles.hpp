@@ -29,11 +29,12 @@ class TrapezoidalProfile {
   public:
     TrapezoidalProfile() = default;
 
-    /// From standstill to standstill. `distance` >= 0, `velocity` > 0, `accel` > 0, all finite.
+    /// Computes the profile from standstill to standstill. Requires `distance` >= 0, `velocity` > 0, `accel` > 0, all
+    /// finite.
     TrapezoidalProfile(double distance, double velocity, double accel);
 
-    /// From `entry` to `exit`, both 0 .. `velocity`. If the distance is too short for this change of velocity, clamps
-    /// the exit velocity to the nearest reachable one; see exit().
+    /// Computes the profile from `entry` to `exit`, both 0 .. `velocity`. If the distance is too short for this change
+    /// of velocity, clamps the exit velocity to the nearest reachable one; see exit().
     TrapezoidalProfile(double distance, double entry, double exit, double velocity, double accel);
 
     double distance() const { return distance_; }  ///< length
@@ -42,7 +43,7 @@ class TrapezoidalProfile {
     double exit() const { return exit_; }          ///< velocity at the end
     double peak() const { return peak_; }          ///< peak velocity
 
-    /// Ends of the phases (acceleration, cruise, deceleration), s.
+    /// Returns the ends of the phases (acceleration, cruise, deceleration), s.
     std::array<double, 3> phase_ends() const { return {cruise_from_, cruise_until_, duration_}; }
 
     /// Returns the state at `t` s; before 0 the start, from duration() on the end with exactly the whole distance.
@@ -69,7 +70,7 @@ class SCurveProfile {
   public:
     SCurveProfile() = default;
 
-    /// `distance` >= 0, the others > 0, all finite.
+    /// Computes the profile. Requires `distance` >= 0, the others > 0, and all finite.
     SCurveProfile(double distance, double velocity, double accel, double jerk);
 
     double distance() const { return distance_; }      ///< length
@@ -77,7 +78,7 @@ class SCurveProfile {
     double peak() const { return peak_; }              ///< peak velocity
     double peak_accel() const { return peak_accel_; }  ///< peak acceleration
 
-    /// Ends of the seven phases, s.
+    /// Returns the ends of the seven phases, s.
     std::array<double, 7> phase_ends() const;
 
     /// Returns the state at `t` s; before 0 the start, from duration() on the end with exactly the whole distance.

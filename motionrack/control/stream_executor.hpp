@@ -75,7 +75,8 @@ class StreamExecutor {
     bool has_room() const { return queue_.has_room() && request_ != StopRequest::stop; }
     /// Checks a line and queues its moves. Requires has_room(). On an error the line has no effect.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number);
-    /// As above, for a line of a whole program whose control flow `program_flow` tracks, in the complete language.
+    /// Checks a line of a whole program, in the complete language, and queues its moves. `program_flow`: the control
+    /// flow of the program. Requires has_room().
     gcode::Outcome<void> line(std::string_view text, std::int32_t number, gcode::ProgramFlow& program_flow);
     /// Ends the program: queues the moves that wait for a following line (see gcode::Interpreter::finish). Requires
     /// has_room().
@@ -104,7 +105,7 @@ class StreamExecutor {
     bool probe_pending() const { return queue_.probe_waits(); }
     /// Returns the number of moves and dwells, as read, that have not ended.
     std::size_t moves() const { return queue_.moves(); }
-    /// Returns 0 if no line was executed since reset_modal_state().
+    /// Returns the line that was begun last; 0: none since reset_modal_state().
     std::int32_t current_line() const { return queue_.line(); }
     ExecutionState state() const { return state_; }
     const gcode::Interpreter& interpreter() const { return interpreter_; }

@@ -57,7 +57,7 @@ class ArcControlPolygon {
     double step_in_ = 0, step_out_ = 0, step_ = 0;
     int rising_ = 0, falling_ = 0;  ///< number of intervals that double, and that halve
     std::int64_t corners_ = 0, next_ = 0;
-    double first_ = 0, last_ = 0;        ///< knots 0 and corners_ - 1
+    double first_ = 0, last_ = 0;        ///< u of knots 0 and corners_ - 1
     double more_in_ = 0, more_out_ = 0;  ///< detour in u to the first corner and from the last one
 };
 

@@ -16,18 +16,18 @@ class ArcCurve {
     ArcCurve() = default;
     explicit ArcCurve(const Geometry& arc);
 
-    double length() const { return 0.5 * (rate_in_ + rate_out_); }  ///< in u
+    double length() const { return 0.5 * (rate_in_ + rate_out_); }  ///< length in u
     ArcCurvePoint at(double u) const;
-    double max_curvature() const { return max_curvature_; }  ///< largest |curvature|
-    double turn_rate() const { return turn_rate_; }          ///< largest angle in the plane of the arc per u
+    double max_curvature() const { return max_curvature_; }  ///< largest |second derivative|, 1/mm
+    double turn_rate() const { return turn_rate_; }          ///< largest rotation in the plane of the arc per u, rad
     double rotary_rate() const { return rotary_rate_; }  ///< degrees per u of the rotary axis with the largest rotation
 
   private:
     std::uint8_t first_ = 0, second_ = 1;
     double centre_first_ = 0, centre_second_ = 0;
-    double from_first_ = 0, from_second_ = 0;  ///< start relative to the centre
+    double from_first_ = 0, from_second_ = 0;  ///< start relative to the centre, mm
     double sweep_ = 0, growth_ = 0;
-    double rate_in_ = 0, rate_out_ = 0;  ///< du by the share of the arc, at its ends; linear between
+    double rate_in_ = 0, rate_out_ = 0;  ///< du/ds at both ends, linear between; s: share of the arc, 0 .. 1
     Point start_ = {}, change_ = {};
     double max_curvature_ = 0, turn_rate_ = 0, rotary_rate_ = 0;
 };

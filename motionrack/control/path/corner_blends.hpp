@@ -21,9 +21,9 @@ struct CornerBlend {
     double begin = 0, peak = 0, end = 0;
     double rise = 0;     ///< 1 / ((peak - begin)(end - begin)): half the slope of the rising side; 0 without one
     double fall = 0;     ///< 1 / ((end - peak)(end - begin)): half the slope of the falling side; 0 without one
-    bool fixed = false;  ///< given blend length (arcs)
+    bool fixed = false;  ///< the blend length is given (arcs)
     double blend_length = 0;
-    double linear = 0;     ///< size of the XYZ change
+    double linear = 0;     ///< length of the XYZ part of `change`
     double rotary = 0;     ///< change of the rotary axis with the largest change
     double tolerance = 0;  ///< largest deviation from the corner by blending: mm, or degrees where only ABC move
     double tolerance_per_rotary = 0;  ///< weight of a degree of the rotary axes in `tolerance`
@@ -34,9 +34,9 @@ struct CornerBlend {
     double blend_scale = 1;  ///< factor that the tolerance of its corner requires of all blends that reach over it
     Point at = {};           ///< position of the corner
     Point change = {};
-    Point tangent = {};  ///< after the corner
-    double feed = 0;  ///< after the corner; every segment begins with a blend, so segments end where feed rates change
-    std::int32_t line = 0;  ///< after the corner
+    Point tangent = {};     ///< tangent after the corner
+    double feed = 0;        ///< maximum du/dt after the corner; a blend begins wherever the feed rate changes
+    std::int32_t line = 0;  ///< line of the move after the corner
 };
 
 class CornerBlends {
@@ -55,7 +55,7 @@ class CornerBlends {
     void added();
     /// Ends the curve at u; no corner follows.
     void complete(double u);
-    /// Discards the blends before this one.
+    /// Discards the blends before number `index`.
     void drop_before(std::int64_t index) { dropped_ = index; }
 
     std::int64_t size() const { return made_; }

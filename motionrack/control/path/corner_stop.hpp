@@ -11,14 +11,14 @@
 
 namespace motionrack::control {
 
-/// Part of a leg at its end with reduced jerk.
+/// Part at one end of a leg in which only a share of the jerk is used.
 struct JerkReduction {
-    double length = 0;  ///< mm or degrees
+    double length = 0;  ///< length of the part, mm or degrees
     double share = 1;
 };
 
 struct CornerStop {
-    double gain = 0;  ///< s
+    double gain = 0;  ///< time gained by the overlap of both legs, s
     JerkReduction before, after;
 };
 

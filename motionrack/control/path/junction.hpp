@@ -40,7 +40,8 @@ inline double effective_jerk(const AxisLimits& axis) {
     return axis.max_jerk > 0 ? axis.max_jerk : axis.max_accel / default_jerk_time_s;
 }
 
-/// Return the limits of the axes along `tangent` or over a blend: the minimum of limit / |tangent|.
+/// Return the highest velocity, acceleration and jerk along a path with this tangent: the minimum over the axes of
+/// limit / |tangent|. For a blend, `tangent` is the change that it makes.
 double max_velocity_along(const Point& tangent, const MachineLimits& limits);
 double max_accel_along(const Point& tangent, const MachineLimits& limits);
 double max_jerk_along(const Point& tangent, const MachineLimits& limits);

@@ -19,12 +19,12 @@ class JunctionPlanner {
 
     /// Starts a path at standstill.
     void begin();
-    /// Adds a leg and the junction at its end. Afterwards at max_junctions `max_junctions` junctions are undecided.
+    /// Adds a leg and the junction at its end. Afterwards at most `max_junctions` junctions are undecided.
     void add(const LegLimits& leg, const Junction& end);
 
     /// Returns the number of decided junctions that were not taken; the start of the path does not count.
     std::size_t decided() const { return decided_; }
-    /// Takes the first of them; returns true for a stop.
+    /// Takes the first decided junction; returns true if the path stops there.
     bool take();
 
   private:
@@ -40,7 +40,7 @@ class JunctionPlanner {
 
     Junction last_;
     std::array<Candidate, 2> candidates_;  ///< [0] passes, [1] stops
-    std::size_t known_ = 0;                ///< junctions that were not taken
+    std::size_t known_ = 0;                ///< number of junctions that were not taken
     std::size_t decided_ = 0;
 };
 

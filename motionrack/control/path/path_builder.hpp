@@ -50,12 +50,12 @@ bool is_straight(const CubicSegment& piece);
 /// Output of the builder: a segment of a curve, or the standstill that ends a curve.
 struct PathElement {
     bool rest = false;
-    CubicSegment piece;              ///< if not rest
+    CubicSegment piece;              ///< the segment, if not rest
     double seconds = 0;              ///< rest: duration of the dwell; 0 for a stop
     double corner_tolerance_mm = 0;  ///< rest: largest distance of XYZ from the sides of the corner if the next curve
                                      ///< starts before this one ends
     std::int32_t line = 0;           ///< rest: line of the move that ends here, or of the dwell
-    Point at = {};                   ///< rest: position
+    Point at = {};                   ///< rest: position of the standstill
 };
 
 /// Builds curves from moves. Allocates nothing after construction. The output depends only on the moves and flushes,
@@ -110,12 +110,12 @@ class PathBuilder {
 
     SegmentMerger segments_;
     CornerBlends turns_;
-    bool begun_ = false;                ///< there is a curve, with the known data below
+    bool begun_ = false;                ///< a curve was begun; the members below describe it
     MergedSegment last_;                ///< segment whose corners were added last
-    double u_end_ = 0;                  ///< its end
-    JerkReduction ease_in_, ease_out_;  ///< jerk reduction of its first and its last line
-    double eased_from_ = 0;             ///< start of the latter
-    bool in_arc_ = false;               ///< the last segment has more corners
+    double u_end_ = 0;                  ///< u at the end of last_
+    JerkReduction ease_in_, ease_out_;  ///< jerk reduction of the first and the last line of the curve
+    double eased_from_ = 0;             ///< u from which ease_out_ applies
+    bool in_arc_ = false;               ///< last_ is an arc with further corners
     ArcControlPolygon arc_;
     ArcControlPoint corner_ = {};  ///< next corner of arc_
     double arc_begin_ = 0;
@@ -124,9 +124,9 @@ class PathBuilder {
     static constexpr std::size_t max_events = 512;
     std::array<double, max_events> events_ = {};  ///< ends of segments, ascending
     std::size_t first_event_ = 0, past_event_ = 0;
-    std::int64_t placed_ = 0;  ///< blends whose knots are in events_
-    std::int64_t alive_ = 0;   ///< first blend that ends behind the cursor
-    std::int64_t edge_ = 0;    ///< last corner before the cursor
+    std::int64_t placed_ = 0;  ///< number of blends whose knots are in events_
+    std::int64_t alive_ = 0;   ///< number of the first blend that ends behind the cursor
+    std::int64_t edge_ = 0;    ///< number of the last corner before the cursor
     double cursor_ = 0;
 };
 

@@ -39,19 +39,19 @@ struct MergedSegment {
     bool rotary = false;   ///< only ABC move; lengths are in degrees
     bool tangent = false;  ///< same direction as the end of the segment before
     std::int32_t line = 0;
-    double length = 0;  ///< in u
+    double length = 0;  ///< length in u
     Point start = {};
     Point end = {};
     Point tangent_in = {};
     Point tangent_out = {};
     Tolerance tolerance;  ///< total tolerance
-    Tolerance merged;     ///< share used by merging chords
+    Tolerance merged;     ///< part of it that merging chords used
     double feed = 0;      ///< maximum du/dt by the programmed feed rate
-    double velocity = 0;  ///< the lower of this and the limits of the axes
+    double velocity = 0;  ///< maximum du/dt by `feed` and the limits of the axes
     JerkReduction ease_in, ease_out;
     double seconds = 0;              ///< rest: dwell time
     double corner_tolerance_mm = 0;  ///< rest: largest distance of the path from the sides of the corner here
-    ArcCurve arc;                    ///< arc
+    ArcCurve arc;                    ///< arc: its curve
 };
 
 /// Merges moves into segments, in program order.
@@ -67,7 +67,7 @@ class SegmentMerger {
 
     /// Returns the number of complete segments.
     std::size_t size() const { return made_ - taken_; }
-    /// Returns the i-th of them, from 0.
+    /// Returns the i-th complete segment, from 0.
     const MergedSegment& at(std::size_t i) const { return segments_[(taken_ + i) % capacity]; }
     void pop() { ++taken_; }
 
@@ -102,7 +102,7 @@ class SegmentMerger {
     struct PendingSegment {
         MergedSegment segment;
         std::int32_t last_line = 0;      ///< line of its last move
-        double corner_tolerance_mm = 0;  ///< at its end
+        double corner_tolerance_mm = 0;  ///< corner tolerance at its end
         CornerStop stop;                 ///< stop at its end, if chosen
     };
     Junction junction_joining(PendingSegment& before, const MergedSegment& after) const;
@@ -124,7 +124,7 @@ class SegmentMerger {
     bool open_ = false;           ///< last_ exists and may still grow
     MergedSegment last_;
     Move last_move_;
-    Point last_tangent_ = {};              ///< at the end of the last move
+    Point last_tangent_ = {};              ///< tangent at the end of the last move
     std::array<Point, max_merged> inner_;  ///< ends of the moves merged in last_, except its own end
     std::size_t inner_count_ = 0;
 };

@@ -15,7 +15,7 @@ namespace motionrack::control {
 
 /// The motion along the path at an instant.
 struct PathMotion {
-    double u = 0;  ///< position on the path
+    double u = 0;  ///< position on the path, mm or degrees
     double velocity = 0;
     double accel = 0;
     double jerk = 0;
@@ -25,13 +25,13 @@ enum class ProfileSegmentKind : std::uint8_t { from_rest, parabolic, constant_je
 
 struct ProfileSegment {
     ProfileSegmentKind kind = ProfileSegmentKind::parabolic;
-    double begin = 0;  ///< u
+    double begin = 0;  ///< u at its start
     double length = 0;
     double seconds = 0;
-    double velocity2 = 0;            ///< parabolic, constant_jerk: at its beginning
+    double velocity2 = 0;            ///< parabolic, constant_jerk: square of the velocity at its beginning
     double velocity2_slope = 0;      ///< parabolic, constant_jerk: derivative over the path, at its beginning
     double velocity2_curvature = 0;  ///< parabolic: second derivative of velocity2 over the path
-    double jerk = 0;                 ///< all kinds except parabolic
+    double jerk = 0;                 ///< constant jerk; all kinds except parabolic
 
     /// Returns the motion `time` s after the start of the segment, 0 .. seconds.
     PathMotion at(double time) const;
@@ -43,7 +43,7 @@ struct ProfileSegment {
 /// it; at an end beside a standstill it may be rounded to 0.
 ProfileSegment approximate_parabolic_segment(double begin, double length, double square, double slope,
                                              double curvature);
-/// Computes the exact duration of a parabolic segment.
+/// Sets the exact duration of a parabolic segment with an approximate one.
 void settle(ProfileSegment& piece);
 /// Makes a parabolic segment with its exact duration.
 ProfileSegment parabolic_segment(double begin, double length, double square, double slope, double curvature);

@@ -61,10 +61,10 @@ class VelocityPlanner {
     /// Limits of a cell, and its control point.
     struct Cell {
         double begin = 0, length = 0;
-        double velocity2 = 0;            ///< maximum
+        double velocity2 = 0;            ///< maximum of velocity2
         double up = 0;                   ///< maximum slope of acceleration
         double down = 0;                 ///< maximum slope of deceleration
-        double velocity2_curvature = 0;  ///< maximum, times the velocity
+        double velocity2_curvature = 0;  ///< maximum of the curvature of velocity2 times the velocity
     };
     /// Edge of the hull, from control point `from`: decrease of the slope between its ends, and the resulting loss of
     /// velocity2.
@@ -110,11 +110,11 @@ class VelocityPlanner {
     VelocityPlannerSettings settings_;
     InitialPathState start_;
     bool can_start_ = true;  ///< start_ is within the limits of the first cells
-    bool stalls_ = false;    ///< decelerates so hard that it would stop before its end
+    bool stalls_ = false;    ///< the initial motion decelerates so much that it would stop before the end
     bool found_ = true;      ///< the last solution continues from start_
     double length_ = 0;
     End launch_, landing_;
-    std::vector<double> ends_;   ///< ends of the intervals
+    std::vector<double> ends_;   ///< u at the ends of the intervals
     std::vector<double> sizes_;  ///< largest cell size at each end of an interval
     std::vector<Cell> cells_;
     // one entry per knot: 0 the end of the launch, cells().size() the start of the landing

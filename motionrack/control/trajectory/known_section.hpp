@@ -8,7 +8,7 @@
 
 namespace motionrack::control {
 
-/// One row per segment in each vector but `feed`.
+/// All vectors except `feed` have one entry per segment.
 struct KnownSection {
     std::vector<CubicSegment> curve;
     std::vector<double> programmed;  ///< feed rates without overrides
@@ -27,8 +27,9 @@ struct KnownSection {
     /// Returns the segment at u = `position`, not before `piece`. At a boundary, returns the following one, so that
     /// some of it remains.
     std::size_t piece_at(double position, std::size_t piece) const;
-    /// Returns the tuning of a segment for a stop on it, driven as fast as planned or as `planned`, times `above`. `k`:
-    /// the first profile segment to inspect, then the first one that reaches it.
+    /// Returns the tuning of a segment for a stop on it. Limits the velocity on a curve to `above` times the larger of
+    /// `planned` and the velocity planned there. `k`: the first profile segment to inspect; set to the first one that
+    /// reaches the segment.
     SegmentTuning use_for_stop(std::size_t piece, std::size_t& k, double planned, double above) const;
 };
 

@@ -41,7 +41,7 @@ class SectionSampler {
   private:
     PathSection section_;
     std::size_t feed_ = 0, piece_ = 0;
-    double feed_begin_ = 0;  ///< s
+    double feed_begin_ = 0;  ///< start of the current profile segment, s from the start of the section
 };
 
 class OfflineTrajectory {
@@ -65,8 +65,8 @@ class OfflineTrajectory {
     std::vector<CubicSegment> curve_;
     std::vector<SegmentTuning> use_;
     StoredRamp before_;   ///< final deceleration of the previous section
-    double alone_ = 0;    ///< s of the previous section without overlap
-    double room_mm_ = 0;  ///< corner tolerance at its end
+    double alone_ = 0;    ///< duration of the previous section without its overlap, s
+    double room_mm_ = 0;  ///< corner tolerance at the end of the previous section
 };
 
 }  // namespace motionrack::control

@@ -19,11 +19,11 @@ class PendingMoves {
   public:
     /// Adds a move and returns its tag.
     std::int32_t push(const TrajectoryMove& move);
-    /// All pushed moves are known to their end.
+    /// Marks all pushed moves as known to their end.
     void flush() { flushed_ = pushed_; }
-    /// The path builder has returned an element of this move.
+    /// Notes that the path builder has returned an element of the move with this tag.
     void report(std::int32_t tag) { reported_ = number_of(tag); }
-    /// Removes the moves before this one.
+    /// Removes the moves before number `number`.
     void forget_before(std::int64_t number);
 
     std::int64_t number_of(std::int32_t tag) const;
@@ -35,7 +35,7 @@ class PendingMoves {
 
   private:
     std::deque<TrajectoryMove> moves_;
-    std::int64_t pushed_ = 0, first_ = 0;  ///< first_: number of the first of moves_
+    std::int64_t pushed_ = 0, first_ = 0;  ///< number of pushed moves, and number of the first one in moves_
     std::int64_t flushed_ = 0;             ///< all moves before this one are known to their end
     std::int64_t reported_ = 0;            ///< move of the last element that the builder has returned
 };

@@ -14,7 +14,7 @@
 namespace motionrack::control {
 
 /// Straight end or beginning of a section with monotonic velocity, as one segment: final deceleration or initial
-/// acceleration. Without feed if the curve is not straight there.
+/// acceleration. `feed` is empty if the curve is not straight there.
 struct SectionRamp {
     CubicSegment curve;
     std::span<const ProfileSegment> feed;

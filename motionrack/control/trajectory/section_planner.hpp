@@ -52,11 +52,11 @@ class SectionPlanner {
     MachineLimits limits_;
     VelocityPlanner planner_;
     std::vector<ProfileSegment> feed_;  ///< the fastest profile found
-    double seconds_ = 0;                ///< its duration
+    double seconds_ = 0;                ///< duration of that profile, s
     // one entry per segment
     std::vector<SegmentLimits> pieces_;
     std::vector<SegmentTuning> use_;
-    std::vector<double> max_velocities_;  ///< maximum velocities
+    std::vector<double> max_velocities_;  ///< highest velocity of the segment
     std::vector<LimitInterval> spans_;
     // one entry per junction of segments
     std::vector<double> squares_;

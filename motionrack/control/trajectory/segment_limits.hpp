@@ -27,12 +27,13 @@ struct SegmentLimits {
     std::size_t count = 0;  ///< number of moving axes
     double velocity =
         0;  ///< within the feed rate and the axes' velocities; leaves some of their acceleration beside the curvature
-    double curvature_rate = 0;  ///< largest jerk_twist
-    bool straight = true;       ///< nothing depends on the velocity
+    double curvature_rate = 0;  ///< largest jerk_curvature_rate of the axes
+    bool straight = true;       ///< no curvature, so no limit depends on the velocity
 
-    /// Returns the velocity at which, in addition, the curvature takes at most this share of the axes' jerk.
+    /// Returns the highest velocity up to `velocity` at which the curvature takes at most this share of the axes' jerk.
     double max_velocity_for(double jerk_share) const;
-    /// Returns the share that leaves enough for this motion, at least max_curvature_share.
+    /// Returns the share of the axes' jerk for the curvature that leaves enough for a motion with this velocity,
+    /// acceleration and jerk; at least max_curvature_share.
     double jerk_share_beside(double at_velocity, double accel, double jerk) const;
     /// Returns the acceleration and jerk along the segment that keep every axis within its limits at any velocity up to
     /// `top` (at most max_velocity_for()).

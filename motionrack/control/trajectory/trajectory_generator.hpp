@@ -82,7 +82,7 @@ class TrajectoryGenerator {
     std::int64_t move_of(const TrajectoryPoint& state) const { return moves_.number_of(state.line); }
     /// Returns the first move that is not fully executed; pushed() if all are.
     std::int64_t first_pending_move() const;
-    /// Returns the move of the dwell.
+    /// Returns the number of the move of the dwell.
     std::int64_t move_of_rest() const { return moves_.number_of(now_.rest.line); }
     /// Returns a pending move as it was pushed.
     const TrajectoryMove& move(std::int64_t number) const { return moves_.move(number); }
@@ -91,7 +91,7 @@ class TrajectoryGenerator {
     /// A position in now_ and the motion there.
     struct PlanCursor {
         std::size_t feed = 0, piece = 0;
-        double on_feed = 0;  ///< s
+        double on_feed = 0;  ///< s since the start of the profile segment
         PathMotion along;
     };
 
@@ -121,9 +121,9 @@ class TrajectoryGenerator {
     SectionPlanner planner_;
     KnownSection now_, then_;
 
-    std::size_t piece_ = 0, feed_ = 0;  ///< current position in now_
-    double position_ = 0;               ///< u
-    double on_feed_ = 0;                ///< s
+    std::size_t piece_ = 0, feed_ = 0;  ///< current segment, and profile segment, in now_
+    double position_ = 0;               ///< current u in now_
+    double on_feed_ = 0;                ///< s since the start of the profile segment
     double left_ = 0;                   ///< s to the end of the plan
     double braking_ = 0;                ///< the last of these s, in which it decelerates to that end
     double reach_ = 0;                  ///< s before the end of now_ at which then_ starts

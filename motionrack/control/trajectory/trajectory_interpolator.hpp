@@ -26,7 +26,7 @@ class TrajectoryInterpolator final : public TrajectoryPlanner {
     TrajectoryInterpolator(const MachineLimits& limits, const Point& start, InterpolatorSettings settings = {});
 
     Result<void> push(const Move& move) override { return push(move, true); }
-    /// Adds a move; one that is not `overridable` ignores the feed override.
+    /// Adds a move, as push(move). Without `overridable` it ignores the feed override.
     Result<void> push(const Move& move, bool overridable);
     bool has_room() const override { return generator_.has_room(); }
     void flush() override { generator_.flush(); }
@@ -35,10 +35,11 @@ class TrajectoryInterpolator final : public TrajectoryPlanner {
         generator_.hold();
         return true;
     }
-    /// `early`: start with the known segments although more may follow.
+    /// Returns the next planned move; false if none is ready. `early`: start with the known segments although more may
+    /// follow.
     bool pull(PlannedMove& planned, bool early);
 
-    /// Access to hold, resume and overrides.
+    /// Returns the generator, for hold, resume and overrides.
     TrajectoryGenerator& generator() { return generator_; }
     const TrajectoryGenerator& generator() const { return generator_; }
 

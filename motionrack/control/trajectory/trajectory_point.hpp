@@ -8,7 +8,7 @@
 
 namespace motionrack::control {
 
-/// Position and its derivatives per s, s^2, s^3.
+/// Positions of all axes and their derivatives, per s, s^2 and s^3.
 struct TrajectoryPoint {
     double u = 0;
     Point position = {}, velocity = {}, accel = {}, jerk = {};
