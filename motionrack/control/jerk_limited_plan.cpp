@@ -7,8 +7,9 @@ namespace motionrack::control {
 
 namespace {
 
-/// s before braking at which an unfinished path is flushed. The interpolator returns nothing of the last moves until it
-/// knows what follows. It is flushed if no line has come and deceleration for the end of its plan is this near.
+/// Time before deceleration for the end of the plan at which an unfinished path is flushed, s. The interpolator returns
+/// nothing of the last moves until it knows what follows. It is flushed if no line has come and deceleration for the
+/// end of its plan is this near.
 constexpr double ends_before = 0.2;
 constexpr Duration sender_is_silent = milliseconds(50);
 
@@ -38,7 +39,7 @@ class JerkLimitedPlan final : public PathPlan {
     }
 
     void submit(MoveQueue&, const PlannedMove& planned) override { blocks_.push_back({planned.number}); }
-    /// One move becomes several blocks.
+    /// Removes the passed moves of the queue; one of them becomes several planned moves.
     void pass(MoveQueue& queue, std::int64_t blocks) override {
         for (; blocks > 0; --blocks) {
             blocks_.pop_front();

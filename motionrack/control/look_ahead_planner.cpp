@@ -75,10 +75,11 @@ double LookAheadPlanner::junction_velocity2(const Last& before, const Geometry& 
     return std::min(junction, velocity * velocity);
 }
 
-/// The hardware's pulse rate continues through the junction of two lines, and may stand for a higher velocity behind
-/// it: from line to line of a curve, and at a corner or behind an arc where more axes move on. Part of the deceleration
-/// of the move before makes up for that. At a corner the hardware is asked for the lesser rate, so that the plan need
-/// not show it. An arc may begin with a higher rate than its own, which it must decelerate from as well.
+/// Returns the factor on velocity2 at a junction. The hardware's pulse rate continues through the junction of two
+/// lines, and may stand for a higher velocity behind it: from line to line of a curve, and at a corner or behind an arc
+/// where more axes move on. Part of the deceleration of the move before makes up for that. At a corner the hardware is
+/// asked for the lesser rate, so that the plan need not show it. An arc may begin with a higher rate than its own,
+/// which it must decelerate from as well.
 LookAheadPlanner::Gain LookAheadPlanner::gain_of(const Last& before, const Geometry& path) const {
     constexpr double min_cosine = 0.98;
     if (drive_ == nullptr) return {};

@@ -16,7 +16,7 @@ double share_of_time(const Move& move, double whole, double part) {
     return move.feed_mode == FeedMode::inverse_time && part > 0 ? move.feed * (whole / part) : move.feed;
 }
 
-/// A part of a move's length as some of its axes have it, and how much they count: the squared way, pulses^2.
+/// Completed share of a move according to some of its axes, and its weight: the square of their travel, pulses^2.
 struct WeighedPart {
     double part = 0;
     double weight = 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double to_roundings = 1 + 1e-10;
 
-/// One user unit in the scaled units, in which jerk and acceleration have the limit 1.
+/// Factors from user units to the scaled units, in which jerk and acceleration have the limit 1.
 struct Scale {
     explicit Scale(const KinematicLimits& limits)
         : accel(1 / limits.accel),
@@ -22,13 +22,13 @@ struct Scale {
           position(velocity * limits.jerk * accel),
           top(limits.velocity * velocity) {}
     double accel;
-    double seconds;  ///< user seconds in one scaled second
+    double seconds;  ///< user seconds in one scaled second: the factor back
     double velocity;
     double position;
     double top;
 };
 
-/// Returns the velocity when the acceleration has reached 0.
+/// Returns the velocity at which the acceleration has been brought to 0 at full jerk, in scaled units.
 double velocity_at_last(double velocity, double accel) {
     return velocity + 0.5 * accel * std::fabs(accel);
 }
@@ -154,7 +154,7 @@ class AxisProfileBuilder {
                 s.velocity + t * (s.accel + 0.5 * t * jerk), s.accel + t * jerk};
     }
 
-    /// `sign`: of the jerk; `scaled`: duration in scaled s.
+    /// Adds a phase, stored forwards. `sign`: sign of the jerk; `scaled`: its duration, scaled s.
     void forward(double sign, double scaled) {
         if (!(scaled > 0)) return;
         const double seconds = scaled * scale_.seconds;

@@ -30,12 +30,12 @@ double noise_of(double distance, double sensitive, double accel) {
     return 8 * relative_rounding * (distance + std::min(512 * distance, sensitive / accel));
 }
 
-/// Finds the root of a function that is below 0 at `min` and above at `max`, with a single crossing. Uses Halley
-/// steps from `guess`, and a bisection where a step would leave the bracket. `at(x)` returns the function and its first
-/// two derivatives.
+/// A function value and its first two derivatives.
 struct Jet {
     double value, first, second;
 };
+/// Finds the root of a function that is below 0 at `min` and above at `max`, with a single crossing. Uses Halley
+/// steps from `guess`, and a bisection where a step would leave the bracket. `at(x)` returns the Jet of the function.
 template <class Function>
 double crossing(double min, double max, double guess, Function at) {
     double x = std::max(min, std::min(guess, max));
@@ -168,7 +168,7 @@ void DoubleSSolver::find_beyond_gap() {
     find_above(gap_);
 }
 
-/// The reach crosses the required one once above `min_s`, or the maximum velocity is met before.
+/// Solves for s above `min_s`: where the reach crosses the required one, or where the peak is the maximum velocity.
 void DoubleSSolver::find_above(double min_s) {
     const double max_s = std::max(min_s, std::sqrt(std::max(0.0, top_ - end_foot_)));
     const double more = reach_ - reach_at(max_s);
@@ -180,7 +180,7 @@ void DoubleSSolver::find_above(double min_s) {
     find_between(min_s, max_s);
 }
 
-/// The reach crosses the required one once between `min_s` and `max_s`.
+/// Solves for s between `min_s` and `max_s`, where the reach crosses the required one exactly once.
 void DoubleSSolver::find_between(double min_s, double max_s) {
     if (max_s > 1 && (min_s >= 1 || reach_at(1) < reach_)) {
         s_ = std::clamp(with_both_holds(), std::max(1.0, min_s), max_s);

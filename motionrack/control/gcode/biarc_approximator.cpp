@@ -8,10 +8,11 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Steps of the parameter: the minimum length of a part.
+/// Number of steps of the curve parameter; a part of the curve is at least one step long.
 constexpr std::uint32_t finest = 1u << 30;
 
-/// Tolerance at the samples of the curve. Between them the deviation is hardly larger, so half of the promise suffices.
+/// Tolerance at the samples of the curve. Between them the deviation is hardly larger, so half of the
+/// maximum is a sufficient margin.
 constexpr double tolerance = spline_tolerance_mm / 2;
 constexpr int samples = 16;
 
@@ -119,7 +120,7 @@ bool BiarcApproximator::piece() {
     return true;
 }
 
-/// Returns false if the part must be shorter.
+/// Fits a biarc to a part of the curve. Returns false if the part is too long for the tolerance.
 bool BiarcApproximator::fit(double from, double to, Biarc& biarc) const {
     biarc.from = curve_.at(from);
     biarc.to = curve_.at(to);

@@ -238,7 +238,7 @@ void CanonPrinter::event(const CanonCall& step, const Interpreter& interpreter) 
     }
 }
 
-/// M48 .. M53
+/// Prints the calls of M48 .. M53.
 void CanonPrinter::overrides(std::int32_t code, bool on) {
     const char* able = on ? "ENABLE" : "DISABLE";
     if (code <= 50) call(fmt::format("{}_FEED_OVERRIDE()", able));

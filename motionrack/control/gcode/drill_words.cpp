@@ -50,8 +50,8 @@ bool DrillWords::cycle_words(std::int16_t code) {
                    fmt::format("{} word missing: {} needs {}", letter, name_of_g(code), what));
 }
 
-/// Tapping reverses the spindle at the bottom (the tap floats in its chuck), G86 stops it: it must turn, and for
-/// tapping in the correct direction.
+/// Refuses G74, G84 and G86 if the spindle does not turn, and tapping if it turns in the wrong direction: tapping
+/// reverses the spindle at the bottom (the tap floats in its chuck), G86 stops it.
 bool DrillWords::spindle_turns(std::int16_t code) {
     const Spindle needed = code == 740 ? Spindle::counter_clockwise : code == 840 ? Spindle::clockwise : next().spindle;
     if (code != 740 && code != 840 && code != 860) return true;

@@ -15,7 +15,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Result of M66.
+/// Number of the parameter that stores the result of M66.
 constexpr int input_parameter = 5399;
 
 }  // namespace

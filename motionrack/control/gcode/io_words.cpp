@@ -9,10 +9,10 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Maximum number of each kind.
+/// Number of ports of each kind: digital and analog inputs and outputs.
 constexpr int max_ports = 64;
 
-/// M66 L.
+/// Wait modes of M66, by their L word.
 enum Wait : std::uint8_t { at_once, rise, fall, high, low };
 
 constexpr std::int16_t wait_on_input = 66;

@@ -264,8 +264,8 @@ std::vector<ContourSegment> seen(const std::vector<ContourSegment>& contour, con
     return out;
 }
 
-/// G70: passes along the contour in equal steps towards it. The return to the start avoids a part that is higher than
-/// both ends.
+/// Makes the moves of G70: passes along the contour in equal steps towards it. The return to the start avoids a part
+/// that is higher than both ends.
 std::string finish(const LatheCycle& plan, const CuttingOrientation& view, const std::vector<ContourSegment>& contour,
                    Path& path) {
     PlanePoint start = view.in(plan.start);

@@ -46,7 +46,7 @@ bool MachineWords::stop(std::int16_t code) {
     return true;
 }
 
-/// M48 .. M53. The machine has no spindle override or feed stop switch: their state is stored and reported.
+/// Executes M48 .. M53. The machine has no spindle override or feed stop switch: their state is stored and reported.
 bool MachineWords::overrides(std::int16_t code) {
     const bool takes_p = (rule_of_m(code).letters & letter_bit('P')) != 0;
     const bool on = takes_p && block().has('P') ? block()['P'] != 0 : code != 49;
@@ -89,7 +89,7 @@ bool MachineWords::check_program() {
            (!block().has('L') || need_integer('L', 0, 1e9, "how often the program runs"));
 }
 
-/// M61 Q: corrects the number of the tool in the spindle.
+/// Executes M61 Q: corrects the number of the tool in the spindle.
 bool MachineWords::set_tool() {
     if (!block().has('Q'))
         return fail_at(block().m_column[m_tool], GrblStatus::word_missing,

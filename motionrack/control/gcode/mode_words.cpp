@@ -87,7 +87,7 @@ void ModeWords::apply_feed() {
     }
 }
 
-/// P and Q may be negative if they are distances, not a time, a tolerance or a depth.
+/// Returns true if P and Q may be negative: as distances of G5, not as a time, a tolerance or a depth.
 bool ModeWords::negative_handles() const {
     const std::int16_t code = block().has_g(g_motion) ? block().g[g_motion] : modes().motion;
     return code == 50 && !block().has_g(g_nonmodal) && !block().has_g(g_path) && !block().has_m(m_tool) &&

@@ -36,7 +36,7 @@ bool MoveReader::targets(bool machine_coordinates) {
     return offset_contour || !cutter().is_off_path() || reaches_contour();
 }
 
-/// In a rotated work system an X word moves Y as well.
+/// Computes the targets in a rotated work system, where an X word moves Y as well.
 bool MoveReader::targets_turned() {
     const WorkFrame& frame = frame_now();
     const bool offset_contour = compensates();
@@ -113,7 +113,7 @@ bool MoveReader::no_feed() {
                                code, next().inch ? "inch" : "mm"));
 }
 
-/// Where each axis positions independently, only one of them can make a feed move.
+/// Refuses arcs and feed moves of several axes on a machine whose axes position independently.
 bool MoveReader::by_itself(std::int16_t code) {
     if (!settings().point_to_point) return true;
     std::string moving;
@@ -146,7 +146,8 @@ bool MoveReader::exceeds_travel(int axis, double value, std::size_t column) {
         ErrorKind::refused);
 }
 
-/// In a rotated work system an arc of G18 or G19 would not lie in a plane of two axes; a cycle would drill on a slant.
+/// Refuses arcs and cycles of G18 and G19 in a rotated work system: an arc would not lie in a plane of two axes, a
+/// cycle would drill on a slant.
 bool MoveReader::in_turned_plane(std::int16_t code) {
     if (!frame_now().is_rotated || next().plane == 0) return true;
     return fail_at(error_column(), GrblStatus::unsupported,
@@ -185,7 +186,7 @@ bool MoveReader::reaches_contour() {
     return true;
 }
 
-/// After G40 the cutter is still on the offset path.
+/// Refuses a move other than a straight one after G40, while the cutter is still on the offset path.
 bool MoveReader::leaves_straight(std::int16_t code) {
     if (!cutter().is_off_path() || (cutter().is_compensating() && next().cutter != CutterSide::off)) return true;
     return fail_at(error_column(), GrblStatus::bad_target,

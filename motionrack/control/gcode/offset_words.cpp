@@ -81,15 +81,15 @@ Point OffsetWords::shift_to_words(const WorkFrame& frame) const {
     return frame.rotate(by);
 }
 
-/// G10 L20 of a rotated system.
+/// Executes G10 L20 for a rotated work system.
 void OffsetWords::shift_turned(WorkFrame& frame, int system) {
     frame.activate(system);
     const Point by = shift_to_words(frame);
     for (int axis = 0; axis < axis_count; ++axis) frame.work[static_cast<std::size_t>(system)][axis] += by[axis];
 }
 
-/// G10 L1 sets the offsets of a tool as written; L10 and L11 set them so that the current tool position equals the
-/// words. L10 uses the active system, L11 uses G59.3.
+/// Executes G10 L1, L10 and L11. L1 sets the offsets of a tool as written; L10 and L11 set them so that the current
+/// tool position equals the words. L10 uses the active system, L11 uses G59.3.
 bool OffsetWords::edit_tool(int what) {
     if (!need_integer('P', 1, largest_tool, "the number of a tool")) return false;
     use(letter_bit('L') | letter_bit('P'));
@@ -151,7 +151,7 @@ bool OffsetWords::tool_length() {
     return tool_length_of_table(code == 432);
 }
 
-/// G43.1, and G43.2 without H: the length is in the words of the line.
+/// Executes G43.1, and G43.2 without H: the length is in the words of the line.
 bool OffsetWords::tool_length_of_words(bool adds) {
     const std::uint32_t others = language() == Language::words ? block().words & axis_words & ~letter_bit('Z') : 0;
     if (others != 0) {
@@ -177,7 +177,7 @@ bool OffsetWords::tool_length_of_words(bool adds) {
     return true;
 }
 
-/// G43 and G43.2 with the lengths of the table; G43 without H, or with H0, selects the tool in the spindle.
+/// Executes G43 and G43.2 with the lengths of the table; G43 without H, or with H0, selects the tool in the spindle.
 bool OffsetWords::tool_length_of_table(bool adds) {
     const std::size_t column = block().g_column[g_tool_length];
     std::int32_t number = std::max(0, next().tool_loaded);

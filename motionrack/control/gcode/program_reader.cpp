@@ -39,7 +39,7 @@ namespace {
 /// Number of repeated problems after which a check stops.
 constexpr int max_repeated = 10'000;
 
-/// Errors in a loop or a subprogram occur repeatedly.
+/// Returns true if `one` was reported before: errors in a loop or a subprogram occur repeatedly.
 bool is_known(const std::vector<Problem>& problems, const Problem& one) {
     return std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
         return other.location.line == one.location.line && other.location.column == one.location.column &&

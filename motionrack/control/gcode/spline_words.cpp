@@ -60,7 +60,7 @@ bool SplineWords::spline_allowed(std::int16_t code) {
     return true;
 }
 
-/// I J lead from the start to the first control point, P Q from the end to the second one.
+/// Reads the control points of G5: I J lead from the start to the first one, P Q from the end to the second one.
 bool SplineWords::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve) {
     if (!block().has('P') || !block().has('Q') || (used() & (letter_bit('P') | letter_bit('Q'))) != 0) {
         return fail_at(error_column(), GrblStatus::word_missing,
@@ -97,7 +97,7 @@ bool SplineWords::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& 
     return true;
 }
 
-/// I J lead from the start to the only control point.
+/// Reads the only control point of G5.1: I J lead from the start to it.
 bool SplineWords::quadratic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve) {
     use(letter_bit('I') | letter_bit('J'));
     const PlanePoint handle = {block().has('I') ? scaled('I') : 0.0, block().has('J') ? scaled('J') : 0.0};

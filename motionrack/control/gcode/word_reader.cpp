@@ -6,7 +6,7 @@
 
 namespace motionrack::control::gcode {
 
-/// Without a tool table every number is valid.
+/// Refuses a tool that the tool table does not have; without a tool table every number is valid.
 bool WordReader::require_tool(char letter, std::int32_t number) {
     if (number == 0 || settings().tools.empty() || tools().find(number)) return true;
     return fail_word(
@@ -14,8 +14,8 @@ bool WordReader::require_tool(char letter, std::int32_t number) {
         fmt::format("{}: the tool table has no tool {}; write it into the table", word_text(letter), number));
 }
 
-/// Returns null after reporting a missing tool. The error points to the word that names it or, for the tool in the
-/// spindle, to the code.
+/// Returns a tool of the table; reports a missing one and returns null. The error points to the word that names it or,
+/// for the tool in the spindle, to the code.
 const Tool* WordReader::tool_of_table(std::int32_t number, char letter, GroupG code) {
     const Tool* tool = tools().find(number);
     const bool named = block().has(letter);

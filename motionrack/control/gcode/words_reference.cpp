@@ -9,7 +9,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Returns "axes P", "X Z D": the letters of a code, axes first.
+/// Returns the letters of a code, axes first, as "axes P" or "X Z D".
 std::string letters_of(const WordRule& rule) {
     std::string out;
     const auto add = [&out](std::string_view text) { out.append(out.empty() ? "" : " ").append(text); };

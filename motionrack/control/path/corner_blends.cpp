@@ -14,7 +14,7 @@ constexpr double unnoticed = 1.0 / 16;
 /// Smaller changes count as zero.
 constexpr double no_change = 1e-13;
 
-/// Minimum blend length (mm, degrees) by the previous rule.
+/// Minimum of the blend length that the velocity, acceleration and jerk of the machine need, mm or degrees.
 constexpr double narrowest_need = 0.05;
 
 /// Lower bound on the factor by which a blend is shortened to reach from corner to corner. Then the allowed difference

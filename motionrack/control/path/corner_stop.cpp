@@ -26,12 +26,12 @@ double rising_seconds(const LegLimits& leg) {
     return std::min(ramp_duration_s(leg.velocity, leg), to_middle);
 }
 
-/// Returns the time in which the acceleration of such a leg rises, s.
+/// Returns the time in which the acceleration of a leg from standstill rises, s.
 double rise_of(const LegLimits& leg) {
     return std::min(leg.accel / leg.jerk, 0.5 * rising_seconds(leg));
 }
 
-/// Returns the time until such a leg has covered a distance, limited to its acceleration phase, s.
+/// Returns the time until a leg from standstill has covered a distance, limited to its acceleration phase, s.
 double leg_seconds_over(double distance, const LegLimits& leg) {
     const double rise = rise_of(leg), left = distance - leg.jerk * rise * rise * rise / 6;
     if (left <= 0) return cube_root(6 * distance / leg.jerk);
@@ -52,13 +52,13 @@ double share_turning_back(const LegLimits& leg, double corner_tolerance_mm) {
     return jerk * std::sqrt(jerk) / leg.jerk;
 }
 
-/// Returns the jerk reduction for an overlap of this duration.
+/// Returns the jerk reduction of a leg to this share of the jerk, for an overlap of `seconds`.
 JerkReduction ease_for(const LegLimits& leg, double share, double seconds) {
     return {std::min(spare * share * leg.jerk * seconds * seconds * seconds / 6, 0.5 * leg.length), share};
 }
 
-/// Returns the time that a leg loses by it, at its maximum velocity. A launch with constant acceleration is described
-/// by the time and position at which it would start without jerk limit.
+/// Returns the time that a leg loses by a jerk reduction, at its maximum velocity, s. A launch with constant
+/// acceleration is described by the time and position at which it would start without jerk limit.
 double cost_of(const JerkReduction& ease, const LegLimits& leg) {
     const double jerk = leg.jerk * ease.share, first = cube_root(6 * ease.length / jerk), slow = jerk * first;
     const double accel = std::max(slow, leg.jerk * rise_of(leg)), second = (accel - slow) / leg.jerk;

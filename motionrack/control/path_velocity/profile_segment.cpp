@@ -48,12 +48,13 @@ Series series_of(double square) {
     return out;
 }
 
-/// The motion on a cell after a time. `position` is on the path, from the beginning of the cell.
+/// The motion on a cell at an instant. `position`: path length from the beginning of the cell.
 struct CellMotion {
     double position;
-    bool is_reversed;  ///< The motion has turned back. It may come to the same position again, or never to the end.
+    bool is_reversed;  ///< the motion has turned back: it may reach a position twice, or never reach the end
 };
-/// `time`: with negative curvature at most half of a period, because the motion is an oscillation.
+/// Returns the motion `time` s after the start of a cell. With negative curvature the motion is an oscillation, and
+/// `time` is at most half of its period.
 CellMotion motion_after(const ProfileSegment& cell, double velocity, double time) {
     const double square = 0.5 * cell.velocity2_curvature * time * time;
     const Series series = series_of(square);

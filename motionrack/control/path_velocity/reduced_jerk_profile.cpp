@@ -13,8 +13,8 @@ constexpr double settled_part_of_ease = 1e-14;
 
 /// Motion from standstill to a maximum velocity, phase by phase; lengths and s.
 struct Rise {
-    double accel = 0;                      ///< maximum
-    double even_from = 0, even_until = 0;  ///< velocities at which it is reached, and left
+    double accel = 0;                      ///< maximum acceleration reached
+    double even_from = 0, even_until = 0;  ///< velocities at which `accel` is reached, and left
     double steeper = 0, even = 0, flatter = 0;
     double steeper_way = 0, even_way = 0, flatter_way = 0;
 };

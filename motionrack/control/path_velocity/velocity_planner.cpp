@@ -12,7 +12,7 @@ namespace {
 /// Assumed bound on velocity2 relative to the previous solution: at first, and the factor by which its excess falls.
 constexpr double first_guess = 2, guess_falls = 0.3;
 
-/// Relative to the initial velocity2.
+/// Lower bound on velocity2 while a motion in progress continues, relative to its initial velocity2.
 constexpr double min_square = 1e-6;
 
 bool all_alike(std::span<const LimitInterval> intervals) {

@@ -130,7 +130,7 @@ void VelocityPlanner::build_cells(std::span<const LimitInterval> intervals) {
     }
 }
 
-/// `at`: the interval in which it starts.
+/// Adds the cell from u = `begin` to `end`. `at`: index of the interval in which it starts.
 void VelocityPlanner::add_cell(std::span<const LimitInterval> intervals, std::size_t at, double begin, double end) {
     LimitInterval min_limits = intervals[at];
     for (; at + 1 < intervals.size() && ends_[at] < end; ++at) min_limits = min_of(min_limits, intervals[at + 1]);

@@ -8,9 +8,9 @@ namespace motionrack::control {
 
 namespace {
 
-/// Relative to a limit.
+/// Excess over an axis limit that counts as rounding, relative to the limit.
 constexpr double overlap_rounding = 1e-7;
-/// Relative to the duration of a segment.
+/// Remaining time that counts as rounding, relative to the duration of a segment.
 constexpr double time_rounding = 1e-12;
 /// Number of bisections for a time on a segment.
 constexpr int overlap_halvings = 14;
@@ -68,14 +68,15 @@ double seconds_gone(std::span<const ProfileSegment> feed, double length) {
     return seconds;
 }
 
-// At any instant of the overlap, either the previous motion has at most the tolerance left, or the next one has covered
-// at most the tolerance. The distance from one side is at most the distance covered along the other.
+// Returns the longest overlap that the tolerance allows, s. At any instant of it, either the previous motion has at
+// most the tolerance left, or the next one has covered at most the tolerance. The distance from one side is at most the
+// distance covered along the other.
 double max_length_within(std::span<const ProfileSegment> in, std::span<const ProfileSegment> out,
                          double corner_tolerance_mm) {
     return seconds_to_go(in, corner_tolerance_mm) + seconds_gone(out, corner_tolerance_mm);
 }
 
-/// A ramp, segment by segment.
+/// Current position on a ramp of several segments.
 class RampCursor {
   public:
     RampCursor(std::span<const ProfileSegment> feed, double seconds) : feed_(feed), time_(seconds) {

@@ -101,7 +101,8 @@ LimitInterval SegmentLimits::up_to(double top, double length) const {
     return out;
 }
 
-/// From w0 to w1, the larger one: w1 - w0 = 2 length (1 - curvature w1) / tangent, for the most limited axis.
+/// Returns the highest velocity2 reachable within `length`, w1 from w0 = `square`: w1 - w0 = 2 length (1 - curvature
+/// w1) / tangent, for the most limited axis.
 double SegmentLimits::compute_reachable_velocities(double square, double length,
                                                    double AxisSegmentLimits::*curvature) const {
     double max_square = no_limit;

@@ -10,7 +10,7 @@ namespace motionrack::control {
 
 namespace {
 
-/// s before deceleration starts at which a plan is extended: more than a caller advances at once.
+/// Time before deceleration starts at which a plan is extended, s: more than a caller advances at once.
 constexpr double margin = 0.15;
 /// Delay before planning is retried, s.
 constexpr double max_wait = 0.008;
@@ -46,7 +46,8 @@ void TrajectoryGenerator::flush() {
     fetch_segments(settings_.window);
 }
 
-/// A flush and a push may coincide: then a few more segments are known than the window allows.
+/// Makes room in the path builder. If a flush and a push coincide, a few more segments are known than the window
+/// allows.
 void TrajectoryGenerator::reserve() {
     if (!builder_.has_room()) fetch_segments(std::numeric_limits<std::size_t>::max());
 }

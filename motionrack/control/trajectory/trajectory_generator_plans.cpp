@@ -16,7 +16,7 @@ constexpr double part_of_velocity = 0.7;
 /// Velocity limit on curves during a stop, relative to the current plan: acceleration that a higher velocity does not
 /// need remains for deceleration.
 constexpr double above_plan = 1.003;
-/// The same where a motion with a high acceleration has to exceed the velocities of its plan: only the limits for which
+/// As above_plan, for a motion whose acceleration makes it exceed the velocities of its plan: only the limits for which
 /// the plan was made apply.
 constexpr double above_any = 1e9;
 /// A change to lower feed rates may exceed the velocity of a stop by the factor `faster` and its duration by
@@ -36,7 +36,7 @@ std::optional<double> nearest_stop(Find find) {
     return end ? end : find(above_any);
 }
 
-/// Returns true if it accelerates after it has decelerated.
+/// Returns true if the profile accelerates after it has decelerated.
 bool accelerates_again(std::span<const ProfileSegment> feed) {
     double peak_velocity = 0, min_velocity = std::numeric_limits<double>::infinity();  // the last since it decelerates
     for (const ProfileSegment& piece : feed) {
@@ -50,8 +50,7 @@ bool accelerates_again(std::span<const ProfileSegment> feed) {
 
 }  // namespace
 
-/// Takes over the plan just found from a point that is reached in `seconds`. Until then the previous plan applies,
-/// which launches there.
+/// Takes over the plan just found from a point that is reached in `seconds`. Until then the previous plan applies.
 void TrajectoryGenerator::take(const PlanCursor& from, double seconds, double to) {
     if (seconds > 0) {
         now_.feed.erase(now_.feed.begin(), now_.feed.begin() + static_cast<std::ptrdiff_t>(feed_));

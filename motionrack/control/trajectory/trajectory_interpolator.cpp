@@ -18,12 +18,12 @@ constexpr double min_move_s = 0.0002;
 /// enough.
 constexpr double earliest = 0.35, near_enough = 0.05;
 constexpr int tries = 16;
-/// Share of half a pulse that remains then.
+/// Share of the rounding to half a pulse that remains after a move is shortened to whole pulses.
 constexpr double noise_left = 0.25;
 /// Factor between tried lengths.
 constexpr double shorter = 0.7;
 constexpr double min_accel = 1e-6;
-/// mm, degrees: shorter moves are skipped.
+/// Moves shorter than this (mm, degrees) are skipped.
 constexpr double min_move_length = 1e-6;
 
 /// Returns the length along the path: of XYZ, or of the fastest rotary axis if only rotary axes move.
@@ -169,8 +169,8 @@ double TrajectoryInterpolator::snap_to_pulses(const TrajectoryPoint& begin, doub
     return best;
 }
 
-/// The velocity sets the pulse spacing of the longest axis. The other axes share its duration: half a pulse more or
-/// less is a velocity step.
+/// Returns how far the end is from whole pulses, in pulses of the worst axis, 0 .. 0.5. The longest axis is exempt: the
+/// velocity sets its pulse spacing. The others share its duration, so that half a pulse more is a velocity step.
 double TrajectoryInterpolator::off_whole_pulses(const Point& begin, const Point& end) const {
     std::array<double, axis_count> delta = {};
     for (std::size_t i = 0; i < delta.size(); ++i)
@@ -184,7 +184,8 @@ double TrajectoryInterpolator::off_whole_pulses(const Point& begin, const Point&
     return off;
 }
 
-/// On a short distance corners may lie on both sides of the middle.
+/// Returns the errors of one move that replaces the next `seconds` of the trajectory. On a short distance corners may
+/// lie on both sides of the middle.
 TrajectoryInterpolator::ApproximationError TrajectoryInterpolator::roughness_of(const TrajectoryPoint& begin,
                                                                                 double seconds) const {
     const TrajectoryPoint middle = generator_.at(0.5 * seconds), end = generator_.at(seconds);

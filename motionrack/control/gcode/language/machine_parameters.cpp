@@ -29,7 +29,7 @@ struct Known {
     Read read;
 };
 
-/// _x .. _c, in program coordinates.
+/// Returns the position of an axis in the coordinates and units of the program: the parameters _x .. _c.
 template <int axis>
 double here(const Interpreter& in) {
     return in.program_position()[axis] / unit_of(in.modes(), axis);

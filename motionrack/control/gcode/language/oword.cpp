@@ -13,11 +13,11 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// In the order of OWord.
+/// Names of the O words, in the order of OWord.
 constexpr std::array<std::string_view, 16> names = {
     "sub",   "endsub",   "call", "return", "if",        "elseif", "else",     "endif",
     "while", "endwhile", "do",   "repeat", "endrepeat", "break",  "continue", "(a numbered program)"};
-/// Number of names that are written out.
+/// Number of names that stand in a program.
 constexpr std::size_t of_words = 15;
 
 void skip_blanks(std::string_view text, std::size_t& at) {

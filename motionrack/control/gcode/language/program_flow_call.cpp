@@ -162,7 +162,7 @@ void ProgramFlow::back_to_caller() {
 
 // ---- numbered programs
 
-/// M98 and M99: calls without arguments, repeated L times.
+/// Executes M98 and M99: calls without arguments, repeated L times.
 Outcome<void> ProgramFlow::follow_program(Interpreter& interpreter) {
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const Block& block = interpreter.block();

@@ -43,7 +43,8 @@ bool Scanner::word_of_language(char letter, std::size_t column, const Number& pl
     return take(letter, column, number);
 }
 
-/// #1 = 2: stored until the whole line was read, so that values on the line are the previous ones.
+/// Scans an assignment, #1 = 2. It takes effect after the whole line was read, so the line still has the previous
+/// value.
 bool Scanner::assignment() {
     const std::size_t column = here();
     ExpressionParser reader(text_, *options_.parameters);
@@ -68,7 +69,7 @@ bool Scanner::assignment() {
     return true;
 }
 
-/// An O word must be first on its line; ProgramFlow reads the rest.
+/// Scans an O word, which must be first on its line; ProgramFlow reads the rest of the line.
 bool Scanner::o_word(std::size_t column) {
     if ((block_.words & ~letter_bit('N')) != 0 || (block_.g_groups | block_.m_groups) != 0 ||
         !block_.assignments.empty()) {
@@ -81,7 +82,7 @@ bool Scanner::o_word(std::size_t column) {
     return true;
 }
 
-/// (MSG,text), and where the language has parameters (DEBUG,text) and (PRINT,text).
+/// Detects (MSG,text), and where the language has parameters (DEBUG,text) and (PRINT,text).
 bool Scanner::comment_kind(std::string_view body, Comment& found) {
     const bool values =
         options_.language != Language::words && (begins_with(body, "DEBUG,") || begins_with(body, "PRINT,"));

@@ -40,7 +40,8 @@ std::size_t end_of_parameter(std::string_view text) {
 
 }  // namespace
 
-/// Uses the values after the assignments of the line and before its motion, as LinuxCNC.
+/// Makes the texts of DEBUG and PRINT comments with the values after the assignments of the line and before its motion,
+/// as LinuxCNC.
 void Interpreter::show_values() {
     std::vector<std::string>& shown = state_.steps.shown();
     shown.clear();
@@ -48,7 +49,7 @@ void Interpreter::show_values() {
         shown.push_back(comment.values ? substitute_values(comment.text) : std::string());
 }
 
-/// A parameter without a value is shown as ######, as in LinuxCNC.
+/// Replaces parameters by their values; one without a value becomes ######, as in LinuxCNC.
 std::string Interpreter::substitute_values(std::string_view text) const {
     const MachineParameters known(*this);
     std::string out;
