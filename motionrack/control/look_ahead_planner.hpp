@@ -44,7 +44,7 @@ class LookAheadPlanner final : public TrajectoryPlanner {
     bool pull(PlannedMove& planned) override;
 
     /// Returns the next planned move, as pull(). If none is ready, makes the velocities of the first open move final
-    /// and returns it. Returns false if there is no move.
+    /// and returns it. Returns false if it has no move.
     bool pull_early(PlannedMove& planned);
 
     /// Returns true if the next `count` moves are whole moves as they were pushed, the path stands still before them,

@@ -45,7 +45,7 @@ class LineWords {
     void prefix_problem(std::string_view text) { problem_.message.insert(0, text); }
     /// Returns the stored error as that of line `number`.
     tl::unexpected<Problem> problem_of(std::int32_t number);
-    /// Returns the stored error as that of the earlier line `number`, whose text is no longer available.
+    /// Returns the stored error as that of the earlier line `number`, whose text is not kept.
     tl::unexpected<Problem> problem_of_earlier(std::int32_t number);
 
     std::size_t error_column() const;  ///< column of the motion word, or of the first axis or offset word

@@ -110,7 +110,7 @@ class VelocityPlanner {
     VelocityPlannerSettings settings_;
     InitialPathState start_;
     bool can_start_ = true;  ///< start_ is within the limits of the first cells
-    bool stalls_ = false;    ///< the initial motion decelerates so much that it would stop before the end
+    bool stalls_ = false;    ///< the initial motion would stop before the end, because it decelerates too hard
     bool found_ = true;      ///< the last solution continues from start_
     double length_ = 0;
     End launch_, landing_;

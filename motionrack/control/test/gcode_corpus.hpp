@@ -35,7 +35,7 @@ inline std::vector<std::string> names() {
     return out;
 }
 
-/// Programs whose names begin with "tools" use the tool table.
+/// Returns true if a program uses the tool table: its name begins with "tools".
 inline bool has_tools(const std::string& name) {
     return name.starts_with("tools");
 }
@@ -66,7 +66,7 @@ inline std::string motion_lines(const std::string& canon) {
     return out;
 }
 
-/// "G71": our cycles skip moves of zero length, while rs274 prints them.
+/// Returns true for programs with lathe cycles. Our cycles skip moves of zero length, while rs274 prints them.
 inline bool turns(const std::string& name) {
     return name.starts_with("lathe");
 }

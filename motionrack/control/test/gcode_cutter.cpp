@@ -55,7 +55,7 @@ std::string place(CutterSpot p) {
     return text;
 }
 
-/// Returns the corners of a polygon around the origin, counter-clockwise, as written.
+/// Returns the corners of a polygon around the origin, counter-clockwise, rounded as the program has them.
 std::vector<CutterSpot> star() {
     const int corners = *rc::gen::inRange(4, 14);
     std::vector<CutterSpot> out;

@@ -19,7 +19,7 @@ struct Word {
 };
 using Line = std::vector<Word>;
 
-/// -99.999 .. 99.999 with up to three decimals.
+/// Generates the text of a number from -99.999 to 99.999 with up to three decimals.
 rc::Gen<std::string> coordinate() {
     return rc::gen::map(rc::gen::inRange(-99'999, 100'000), [](int thousandths) {
         char text[32];

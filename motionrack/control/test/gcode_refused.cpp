@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The last line of `program` is refused.
+/// A program whose last line is refused, with the expected error.
 struct RefusedLine {
     const char* program;
     int column;

@@ -33,7 +33,7 @@ inline void write(const std::string& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
 }
 
-/// The machine units of rs274 -g are inches.
+/// Returns the tool table in inches, the machine units of rs274 -g.
 inline std::string table_in_inches() {
     const ToolTable table = *read_tool_table(file_text(folder() + "tools.tbl"));
     std::string out;

@@ -19,7 +19,7 @@ struct Spot {
     double x, y;
 };
 
-/// Uses the sum of Bernstein polynomials, unlike the reader.
+/// Returns the point of a cubic at t, 0 .. 1, as a sum of Bernstein polynomials, unlike the reader.
 Spot curve_at(const std::array<Spot, 4>& p, double t) {
     const double u = 1 - t;
     const double b[] = {u * u * u, 3 * u * u * t, 3 * u * t * t, t * t * t};

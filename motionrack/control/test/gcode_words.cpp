@@ -14,8 +14,8 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Lines that a program may have. Each of the codes stands in place of '@'; together its lines have all words of its
-/// row. A code without a line here needs no words.
+/// A valid line for each of `codes`, which replaces the '@'. The lines of a code together have all words of its row. A
+/// code without a line here needs no words.
 struct CodeLine {
     std::string_view codes;
     std::string_view line;

@@ -76,7 +76,7 @@ class Maker {
         }
     }
 
-    /// Starts in the direction of `heading`, so that lines and arcs often meet tangentially.
+    /// Makes `move` an arc that starts in the direction of `heading`, so that lines and arcs often meet tangentially.
     void arc(Move& move, const Point& at, double& heading) {
         move.kind = MoveKind::arc;
         const bool left = one_of(2) == 0;

@@ -312,7 +312,7 @@ TEST(LookAheadPlanner, RefusesWhatTheMachineCannotDoAndContinues) {
     EXPECT_FALSE(planner.pull(planned));
 }
 
-/// Each change of velocity takes a whole move of a pulse or two.
+/// Hardware that needs the whole length of a move at constant velocity.
 class SpendsAll : public DriveConstraints {
   public:
     double max_junction_velocity(const Geometry&, const Geometry&) const override { return 1e9; }
@@ -331,7 +331,7 @@ TEST(LookAheadPlanner, PlansAFiniteDurationIfTheConstantVelocityLengthIsTheWhole
     EXPECT_LT(seconds_of(planned), 0.1);
 }
 
-/// A pulse rate that stands for a higher velocity where Z moves too.
+/// Hardware whose pulse rate gives a higher velocity where Z starts to move.
 class QuickerBehindTheCorner : public DriveConstraints {
   public:
     static constexpr double ratio = 1.5;

@@ -82,7 +82,7 @@ class Search {
         return {true, s.t, s.p};
     }
 
-    /// Returns NaN if the branch has no such motion.
+    /// Returns the position error of the motion with this peak on one branch; NaN if the branch has no such motion.
     double error(double peak, bool low, bool& possible, double& seconds) const {
         const Outcome out = down(up_to(peak), low);
         possible = out.possible;

@@ -15,7 +15,7 @@ std::string text_of(const Task& t) {
     return text;
 }
 
-/// Powers of two times 1 .. 2, so that no logarithm is needed.
+/// Returns a number of either sign: a power of two times 1 .. 2, so that no logarithm is needed.
 double Tasks::of_magnitude(double min, double max) {
     const int low = std::ilogb(min), high = std::ilogb(max);
     const int power = low + static_cast<int>(random_() % static_cast<unsigned>(std::max(1, high - low)));

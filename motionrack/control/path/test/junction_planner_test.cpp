@@ -33,7 +33,7 @@ ChoiceRow random_row(unsigned seed, std::size_t legs) {
     return out;
 }
 
-/// `stops`: bit i for the end of leg i.
+/// Returns the duration of all legs, s. `stops`: bit i for a stop at the end of leg i.
 double seconds_of_row(const ChoiceRow& row, unsigned stops) {
     double seconds = 0;
     for (std::size_t i = 0; i < row.legs.size(); ++i) {

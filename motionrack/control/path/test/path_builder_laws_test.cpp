@@ -32,8 +32,8 @@ struct Case {
     std::vector<PathElement> items;
 };
 
-/// Checks as many programs as are asked for; and, up to `everyday`, as many as it takes until `shown` says that the law
-/// was put to the test.
+/// Checks `everyday` random programs, or the number that the environment sets. If that is fewer, continues up to
+/// `everyday` until `shown` returns true: the law was tested.
 template <class Shown, class Check>
 void for_programs(std::uint64_t everyday, Shown shown, Check check) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", everyday);
@@ -53,7 +53,7 @@ void for_random_programs(Check check) {
     for_programs(1000, shown, check);
 }
 
-/// Some program uses more than this share of its tolerance, or the law says nothing.
+/// At least one program must use more than this share of its tolerance; otherwise the law was not tested.
 constexpr double used_share = 0.5;
 
 TEST(PathLaws, PositionTangentAndCurvatureAreContinuousAtJunctions) {

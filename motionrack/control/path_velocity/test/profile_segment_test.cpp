@@ -10,7 +10,7 @@
 namespace motionrack::control {
 namespace {
 
-/// The motion advances from the beginning to the end in the duration of the cell, and never back.
+/// Expects that the motion advances from the beginning to the end in the duration of the cell, and never moves back.
 void expect_motion_forward(const ProfileSegment& cell) {
     constexpr int samples = 50;
     double last = 0;
@@ -69,7 +69,7 @@ TEST(ProfileSegment, EndsWhenItFirstReachesAnEndOfTheSameVelocity) {
     }
 }
 
-/// By the last digits of the slope the motion may turn back before the end.
+/// Rounding of the slope may make the motion turn back before the end.
 TEST(ProfileSegment, EndsAtStandstillWhereTheVelocityAtTheEndIsRoundedToZero) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> part(0, 1);

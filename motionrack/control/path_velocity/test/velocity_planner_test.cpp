@@ -18,7 +18,7 @@ namespace {
 class RandomSpans {
   public:
     explicit RandomSpans(unsigned seed) : random_(seed) {}
-    /// Deceleration has the same limit as acceleration, or another one.
+    /// Returns 1 .. `max_count` intervals. `brakes_alike`: deceleration has the same limit as acceleration.
     std::vector<LimitInterval> next(int max_count, bool brakes_alike = true) {
         std::vector<LimitInterval> out(1 + random_() % static_cast<unsigned>(max_count));
         for (LimitInterval& interval : out)

@@ -38,7 +38,8 @@ std::string value(int depth) {
     }
 }
 
-/// With rotated work systems, or with G92: rs274 loses its position if a system is rotated while G92 is on.
+/// Returns a random line, with rotated work systems (`turns`) or with G92: rs274 loses its position if a system is
+/// rotated while G92 is on.
 std::string line(bool turns) {
     const char* axes = "XYZ";
     const char axis = axes[*rc::gen::inRange(0, 3)];

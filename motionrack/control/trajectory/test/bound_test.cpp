@@ -159,9 +159,9 @@ struct Nearness {
     double at_feed, as_fast_as_can_be;  ///< relative to the minimum duration
 };
 
-/// With a jerk that costs no time. At the feed rate the loss is at the ends and on curves that are tighter than the
-/// feed rate allows. Without it the loss is where the velocity changes on curves, because a limit applies to a part of
-/// the curve at its tightest point. Long chords have an intermittent curvature.
+/// The jerk limit is so high that it costs no time. At the feed rate the loss is at the ends and on curves that are
+/// tighter than the feed rate allows. Without a feed rate the loss is where the velocity changes on curves, because a
+/// limit applies to a part of the curve at its tightest point. Long chords have an intermittent curvature.
 TEST(OfflineTrajectory, IsNearItsLowerBoundOnSmoothShapes) {
     const std::vector<Nearness> shapes = {
         {"circle 0.1", circle(0.1), 1.0015, 1.011}, {"circle 0.25", circle(0.25), 1.0015, 1.011},

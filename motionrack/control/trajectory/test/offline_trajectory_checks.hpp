@@ -16,7 +16,7 @@
 
 namespace motionrack::control::trajectory_test {
 
-/// Violated property and its excess; no name: none.
+/// Violated property and its excess; an empty name: no violation.
 struct Fault {
     std::string name, text;
 };

@@ -20,7 +20,7 @@ struct KeptStretch {
         : curve(from.curve.begin(), from.curve.end()), feed(from.feed.begin(), from.feed.end()), section(from) {
         before.keep(from.before);
     }
-    /// Valid while this object exists.
+    /// Returns the section; valid while this object exists.
     PathSection view() const {
         PathSection out = section;
         out.curve = curve;

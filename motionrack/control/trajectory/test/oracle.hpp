@@ -22,7 +22,7 @@ struct OracleStep {
 
 class Oracle {
   public:
-    /// Divides each segment into at least `of_piece` steps, and the curve into about `of_curve`.
+    /// Divides each segment into at least `of_piece` steps, and the curve into about `of_curve` steps.
     Oracle(std::span<const CubicSegment> curve, const MachineLimits& limits, int of_piece = 20, int of_curve = 4000)
         : limits_(limits) {
         if (curve.empty()) return;

@@ -67,7 +67,7 @@ TEST(SegmentLimits, KeepEveryAxisWithinItsLimitsOnTheWholeSegment) {
     }
 }
 
-/// Accelerates all the way to it, and decelerates all the way from it.
+/// Full acceleration over the length leads to velocity2_after(); full deceleration leads down from velocity2_before().
 TEST(SegmentLimits, GiveTheReachableVelocityWithTheRemainingAcceleration) {
     RandomPieces random;
     int looked = 0;

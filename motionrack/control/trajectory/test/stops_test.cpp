@@ -35,13 +35,13 @@ TEST(OfflineTrajectoryComparedWithExactStops, IsRarelySlower) {
     EXPECT_LE(max_times, 1.04);
 }
 
-/// Short, long, short, with corners of 40 degrees.
+/// The program has a short, a long and a short line, with corners of 40 degrees.
 TEST(OfflineTrajectoryComparedWithExactStops, IsNotSlowerBetweenShortLines) {
     std::vector<Move> moves = {line_to({0.25, 0}, 0.01), line_to({1.35, 0.92}, 0.01), line_to({1.6, 0.92}, 0.01)};
     EXPECT_LE(times_stopping(moves), 1.0);
 }
 
-/// Nearly straight.
+/// The program is nearly straight: corners of 1e-4 rad.
 TEST(OfflineTrajectoryComparedWithExactStops, TakesTheProgrammedTimeInInverseTime) {
     std::vector<Move> moves;
     double x = 0, y = 0, heading = 0, programmed = 0;

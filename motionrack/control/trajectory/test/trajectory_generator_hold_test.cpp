@@ -20,8 +20,8 @@ using trajectory_test::long_line;
 using trajectory_test::machine;
 using trajectory_test::program;
 
-/// Any path to the stop: corners, curves, the end of the known path. If a leg has started before the previous one has
-/// ended, both are executed as planned until that one ends.
+/// The path to the stop may have corners, curves and the end of the known path. If a leg has started before the
+/// previous one has ended, both are executed as planned until that one ends.
 TEST(TrajectoryGeneratorDisturbedAtRandom, NeverAcceleratesAgainOnceItDeceleratesForAFeedHold) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         std::mt19937 random(seed);
@@ -74,7 +74,7 @@ TEST(TrajectoryGenerator, StopsSoonAfterFeedHoldAndResumesFromThere) {
     expect_limits(driven);
 }
 
-/// A line, the same in short ones, a circle, the same in chords.
+/// Returns a line, the same line in short ones, a circle, and the same circle in chords.
 std::vector<std::vector<Move>> ways_at(double feed) {
     std::vector<std::vector<Move>> out = {{long_line(feed)}, {}, {arc_from({}, 0, 30, 6)}, {}};
     for (int i = 1; i <= 200; ++i) out[1].push_back(line_to({0.5 * i}));
@@ -126,7 +126,7 @@ TEST(TrajectoryGenerator, StopsEarlyOnACircleAtItsMaxVelocity) {
     }
 }
 
-/// During acceleration, and at full velocity, where hardly any jerk remains for deceleration.
+/// Holds during acceleration, and at full velocity, where hardly any jerk remains for deceleration.
 TEST(TrajectoryGenerator, StopsAndDeceleratesEarlyOnCurvesThatNeedNearlyTheFullJerk) {
     const auto velocity_of = [](const Driven& driven) {
         return std::hypot(driven.last.velocity[0], driven.last.velocity[1]);
@@ -151,7 +151,7 @@ TEST(TrajectoryGenerator, StopsAndDeceleratesEarlyOnCurvesThatNeedNearlyTheFullJ
         }
 }
 
-/// The next line would start before this one has ended.
+/// Without the hold the next line would start before this one has ended.
 TEST(TrajectoryGenerator, StopsAtTheCornerAfterAFeedHoldJustBeforeIt) {
     Driven driven({line_to({10, 0}, 0.2), line_to({10, 10}, 0.2)}, {});
     driven.step(0, true);

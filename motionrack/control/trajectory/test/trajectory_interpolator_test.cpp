@@ -81,7 +81,7 @@ double distance_to(const std::vector<PlannedMove>& moves, const Point& position)
     return nearest;
 }
 
-/// A slow trajectory has corners within the duration of a move.
+/// At a low feed rate corners lie within the duration of one planned move.
 TEST(TrajectoryInterpolator, StaysWithinTheCornerToleranceAndOnePulse) {
     constexpr double tolerance = 0.002;
     for (unsigned seed = 0; seed < 30; ++seed) {
@@ -194,7 +194,7 @@ TEST(TrajectoryInterpolator, RejectsInvalidMovesAndContinues) {
     EXPECT_TRUE(planner.pull(planned));
 }
 
-/// Interpolates two axes and uses a third as auxiliary axis.
+/// Hardware that interpolates two axes and uses a third as auxiliary axis.
 class TwoAxes : public DriveConstraints {
   public:
     double max_junction_velocity(const Geometry&, const Geometry&) const override { return 1e9; }

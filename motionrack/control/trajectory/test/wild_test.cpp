@@ -16,7 +16,7 @@ TEST(RandomOfflineTrajectory, KeepsLimitsAndToleranceAtEveryInstant) {
     }
 }
 
-/// After a bend at which an axis needs all of its acceleration, a move of 6 nm that takes 23 s.
+/// A move of 6 nm takes 23 s, after a bend at which an axis needs all of its acceleration.
 TEST(RandomOfflineTrajectory, IsNeverFasterThanItsBoundForAVeryShortMove) {
     const trajectory_test::Fault fault = trajectory_test::fault_of(trajectory_test::WildMaker(661189243).program());
     EXPECT_EQ(fault.name, "") << fault.text;
@@ -28,8 +28,8 @@ TEST(RandomOfflineTrajectory, IsNeverFasterThanItsBoundForAVeryShortRemainder) {
     EXPECT_EQ(fault.name, "") << fault.text;
 }
 
-/// The move of X is far below a pulse, so that the next move makes it, too. The feed of that one is degrees per second,
-/// although X moves a little.
+/// The move of X is far below a pulse, so the next move includes it. The feed rate of the next move is in degrees per
+/// second, although X moves a little.
 TEST(RandomOfflineTrajectory, OfARotaryAxisKeepsItsFeedAfterAMoveFarBelowAPulse) {
     for (const bool moves_before : {false, true}) {
         trajectory_test::WildProgram program;

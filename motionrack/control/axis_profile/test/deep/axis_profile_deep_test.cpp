@@ -15,12 +15,12 @@ using namespace travel_test;
 
 constexpr int parts = 10;
 
-/// The number of tasks in a part.
+/// Returns the number of tasks in a part.
 int tasks_of_a_part() {
     return static_cast<int>(cases("MOTIONRACK_TASKS", 100'000));
 }
 
-/// The number of random motions in a part, of which two in five stay within the limits.
+/// Returns the number of random motions in a part, of which two in five stay within the limits.
 int motions_of_a_part() {
     return static_cast<int>(cases("MOTIONRACK_MOTIONS", 1'000'000));
 }
