@@ -49,7 +49,7 @@ struct Move {
     double tolerance_mm = 0;    ///< largest deviation from the path with PathControl::continuous
     double centre_first = 0;    ///< arc: centre on axis `first`, mm
     double centre_second = 0;   ///< arc: centre on axis `second`, mm
-    double seconds = 0;         ///< dwell: its duration
+    double seconds = 0;         ///< dwell: its duration, s
     Point end = {};             ///< target position
 };
 

@@ -73,7 +73,7 @@ class PathPlan {
         for (const SubmittedMove& block : blocks_) highest = std::max(highest, block.rapid_override);
         return highest;
     }
-    /// Notes that the path was interrupted: the axes discarded the submitted moves.
+    /// Counts all submitted moves as passed, because the path ended or was interrupted.
     void interrupt(MoveQueue& queue) {
         queue.pass_blocks(static_cast<std::int64_t>(blocks_.size()));
         blocks_.clear();

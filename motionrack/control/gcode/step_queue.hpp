@@ -58,7 +58,7 @@ class StepQueue {
     void add(std::uint32_t todo) { todo_ |= todo; }
     void add_comments();
     void add_dwell(double seconds);
-    /// Adds the wait of M66 for an input, at most `seconds`.
+    /// Adds the wait of M66 for an input, which ends by its timeout of `seconds`.
     void add_wait(double seconds);
     void add_port(double value);
     void add_stop(std::int16_t code);
