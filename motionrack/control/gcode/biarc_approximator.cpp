@@ -11,8 +11,8 @@ namespace {
 /// Number of steps of the curve parameter; a part of the curve is at least one step long.
 constexpr std::uint32_t finest = 1u << 30;
 
-/// Tolerance at the samples of the curve. Between them the deviation is hardly larger, so half of the
-/// maximum is a sufficient margin.
+/// Tolerance at the samples of the curve. Between them the deviation is hardly larger, so half of the maximum
+/// is a sufficient margin.
 constexpr double tolerance = spline_tolerance_mm / 2;
 constexpr int samples = 16;
 

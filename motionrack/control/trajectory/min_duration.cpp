@@ -140,8 +140,7 @@ double ahead_over(const Cell& cell, double square, double cap, const MachineLimi
 }
 
 /// Returns the duration of a cell between two squares of the velocity, s. Within a straight cell the velocity may rise
-/// and fall. The same model applies to a curved cell in which the velocity
-/// changes much.
+/// and fall. The same model applies to a curved cell in which the velocity changes much.
 double seconds_over(const Cell& cell, double from, double to) {
     const double begin = std::sqrt(from), end = std::sqrt(to);
     if (!cell.straight && std::fabs(to - from) < much * std::max(from, to)) return 2 * cell.length / (begin + end);
