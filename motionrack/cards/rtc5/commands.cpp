@@ -25,7 +25,7 @@ Result<double> checked(const ListCommandInfo& command, const ParamInfo& param, d
     return std::clamp(value, kind.min, kind.max);
 }
 
-/// Ranges that depend on the command.
+/// Checks the parameter ranges that depend on the command, beyond those of the parameter's kind.
 Result<void> command_ranges(const ListCommandInfo& info, const Command& c) {
     const auto refuse = [&](std::string_view name, double value, std::string_view range) {
         return fail(ErrorKind::refused,

@@ -18,21 +18,21 @@ namespace motionrack::rtc5 {
 
 inline constexpr Duration tick_time = microseconds(10);           ///< output period of the card
 inline constexpr int half_us_per_tick = 20;                       ///< resolution of laser switching: 0.5 us
-inline constexpr double min_field = -524288, max_field = 524287;  ///< the real field, 20 bits
+inline constexpr double min_field = -524288, max_field = 524287;  ///< field of the mirrors, bits (20-bit output)
 inline constexpr double min_z = -32768, max_z = 32767;
 inline constexpr int encoder_count = 2, head_count = 2, table_count = 4, start_queue = 8;
-inline constexpr int simulated_counts = 10;  ///< per tick: 1 MHz
+inline constexpr int simulated_counts = 10;  ///< counts per tick of a simulated encoder: 1 MHz
 inline constexpr std::int64_t min_list_memory = 16, max_list_memory = 1 << 20;
 inline constexpr std::size_t max_depth = 63, calls_per_tick = 64, subroutine_count = 1024;
 inline constexpr double min_resolution = 100;  ///< counts per revolution; below it rotary corrections are off
 
-/// Bits of set_control_mode.
+/// Bits of set_control_mode: external start enabled, encoder reset at a start, equidistant starts.
 inline constexpr std::uint32_t control_ext_start = 1u << 0, control_reset_at_start = 1u << 9,
                                control_equidistant = 1u << 10;
 
-/// A list command with validated parameters. NaN, infinities, fractions of whole parameters and values outside a range
-/// that does not clip are refused; the sentence has the command, the parameter, the number and the range. Coordinates
-/// and speeds are clipped.
+/// Makes a list command with validated parameters. NaN, infinities, fractions of whole parameters and values outside a
+/// range that does not clip are refused; the sentence has the command, the parameter, the number and the range.
+/// Coordinates and speeds are clipped.
 Result<Command> list_command(Op op, std::span<const double> parameters);
 inline Result<Command> list_command(Op op, std::initializer_list<double> parameters) {
     return list_command(op, std::span<const double>(parameters.begin(), parameters.size()));
@@ -46,16 +46,16 @@ inline Result<void> check_parameter(std::string_view command, std::string_view n
     const KindInfo range = kind_info(kind);
     return check_parameter(command, name, value, range.min, range.max, range.unit);
 }
-/// The nearest value in the range of its kind.
+/// Returns the nearest value within the range of a parameter kind.
 constexpr double clipped(double value, Kind kind) {
     const KindInfo range = kind_info(kind);
     return std::clamp(value, range.min, range.max);
 }
 
-/// The names of the set bits as readable text: "FLY_X_OVERFLOW: the corrected X was above 524287".
+/// Lists the set bits of a word with their meaning: "FLY_X_OVERFLOW: the corrected X was above 524287".
 std::vector<std::string> decoded(std::uint32_t word, std::span<const BitInfo> bits);
 
-/// The whole map, for documents, inspectors and traces.
+/// Returns the map of the card (words, commands, pins), for documents, inspectors and traces.
 inline const CardMap& card_map() {
     return map::card;
 }

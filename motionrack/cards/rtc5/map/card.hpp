@@ -1,4 +1,4 @@
-// The whole map in the terms shared by all cards: list commands with their parameters, status words bit by bit, pins.
+// The RTC5's map in the types shared by all cards: list commands with parameters, status words bit by bit, pins.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ inline constexpr auto marking_info_fields = fields_of(marking_info_bits);
 inline constexpr auto startstop_info_fields = fields_of(startstop_info_bits);
 inline constexpr auto list_status_fields = fields_of(list_status_bits);
 
-/// Words that the card answers. The card has no bus, so their offsets are only numbers.
+/// Status words that the card answers to queries. The card has no bus, so their offsets are only numbers.
 inline constexpr RegisterInfo words[] = {
     {"STATUS", 0, 32, Access::read, false, "", "answer of get_status, no register on a bus", status_fields},
     {"MARKING_INFO", 4, 32, Access::read_clears, false, "",
@@ -31,7 +31,7 @@ inline constexpr RegisterInfo words[] = {
 };
 static_assert(declared<registers_flaw(words)>());
 
-/// "(X, Y, Angle): about the centre X, Y, laser on".
+/// Text of a list command, as in "(X, Y, Angle): about the centre X, Y, laser on".
 struct CommandText {
     std::array<char, 256> text{};
     std::size_t size = 0;

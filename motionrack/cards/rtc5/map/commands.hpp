@@ -31,12 +31,13 @@ enum class Op : std::uint32_t {
 // clang-format on
 inline constexpr std::size_t op_count = static_cast<std::size_t>(Op::count);
 
-/// Timing class of a command. A command of the pipeline changes or reads the processing after the position.
+/// Timing class of a command: ticks that it takes, and whether it changes or reads the processing after the path
+/// position (pipeline).
 enum class Timing : std::uint8_t {
-    shortly,   ///< no tick of its own, and the path continues through it
-    across,    ///< the same, but it reads or changes the processing after the position
+    shortly,   ///< no tick of its own; motion continues through it
+    across,    ///< as shortly, but it reads or changes the pipeline
     pipeline,  ///< no tick of its own; a polyline ends before it
-    normal,    ///< a tick or more; a command of the pipeline
+    normal,    ///< a tick or more; reads or changes the pipeline
     motion     ///< a tick or more; moves or holds the position
 };
 
@@ -58,7 +59,7 @@ struct ListCommandInfo {
     std::string_view name;
     Op op = Op::none;
     Timing timing = Timing::normal;
-    int positions = 1;  ///< positions in the list memory
+    int positions = 1;  ///< positions that it takes in the list memory
     std::array<ParamInfo, max_params> params{};
     std::string_view meaning;
 
@@ -69,8 +70,8 @@ struct ListCommandInfo {
     }
 };
 
-/// One command in the list memory. HeadNo is in `head`; the other parameters are in `p` in order (whole numbers too:
-/// they fit), a fifth parameter is in `head`.
+/// One command in the list memory. HeadNo, or a fifth parameter, is in `head`; the other parameters are in `p` in
+/// order (a double holds their integers exactly).
 struct Command {
     Op op = Op::none;
     std::int32_t head = 0;
@@ -140,7 +141,7 @@ inline constexpr ParamInfo pmode = {"Mode", Kind::number}, pencoder = {"EncoderN
 inline constexpr ParamInfo ponce = {"at_once", Kind::index}, pscale_x = {"ScaleX", Kind::scale},
                            pscale_y = {"ScaleY", Kind::scale};
 
-/// In the order of Op.
+/// All list commands, in the order of Op.
 // clang-format off
 inline constexpr ListCommandInfo list_commands[op_count] = {
     {"(empty)", Op::none, Timing::pipeline, 1, {},

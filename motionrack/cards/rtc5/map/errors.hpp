@@ -23,7 +23,7 @@ consteval std::uint32_t error_bit(std::string_view name) {
     return map::bit_named(map::error_bits, name);
 }
 
-/// Bits for a command that ended with this error.
+/// Returns the bits of get_last_error for a command that ended with this error.
 constexpr std::uint32_t error_bits_of(ErrorKind trouble) {
     switch (trouble) {
         case ErrorKind::invalid_input:

@@ -6,7 +6,7 @@
 
 namespace motionrack::rtc5::map {
 
-/// A line and the value of its wire: a level, or a whole number of the given bits.
+/// A line of the card whose wire carries a level (1 bit) or a whole number of `bits` bits.
 struct WidePin {
     PinInfo pin;
     int bits = 1;

@@ -8,7 +8,7 @@
 
 namespace motionrack::rtc5 {
 
-/// Quantity that a signal takes from a tick.
+/// Quantity of a tick whose value a signal has.
 enum class SignalSource : std::uint8_t { laser, corrected, z, table, output, transformed, io, count, mark_speed };
 
 struct SignalInfo {
@@ -17,7 +17,7 @@ struct SignalInfo {
     SignalSource source = SignalSource::laser;
     std::uint8_t head = 0;    ///< 0 A, 1 B; for counts: the encoder
     std::uint8_t axis = 0;    ///< 0 X, 1 Y
-    bool laser_only = false;  ///< -524288 while the laser is off
+    bool laser_only = false;  ///< true: the value is -524288 while the laser is off
     std::string_view meaning;
 };
 
@@ -68,14 +68,14 @@ static_assert(declared<signals_flaw(signals)>());
 
 }  // namespace map
 
-/// Returns nullptr if the card has no signal of that number.
+/// Finds a signal by its number; returns nullptr if the card has none.
 constexpr const SignalInfo* signal_info(std::int64_t number) {
     for (const SignalInfo& signal : map::signals)
         if (signal.number == number) return &signal;
     return nullptr;
 }
 
-inline constexpr std::int64_t record_values = 1 << 21;  ///< over all channels: 2 of 2^20, or 4 of 2^19
+inline constexpr std::int64_t record_values = 1 << 21;  ///< values of a recording: 2 channels of 2^20, or 4 of 2^19
 inline constexpr std::int64_t record_channels = 4, sent_signals = 8;
 
 }  // namespace motionrack::rtc5

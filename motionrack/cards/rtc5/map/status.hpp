@@ -76,7 +76,7 @@ consteval std::uint32_t bit_named(std::span<const BitInfo> bits, std::string_vie
 
 }  // namespace map
 
-/// A bit of get_marking_info, by its name.
+/// Returns the bit mask of a bit of get_marking_info, by its name; the following two do so for their words.
 consteval std::uint32_t marking_bit(std::string_view name) {
     return map::bit_named(map::marking_info_bits, name);
 }
@@ -87,7 +87,7 @@ consteval std::uint32_t status_bit(std::string_view name) {
     return map::bit_named(map::status_bits, name);
 }
 
-/// A bit of read_status.
+/// Returns the bit mask of a bit of read_status, by its name.
 consteval std::uint32_t list_status_bit(std::string_view name) {
     return map::bit_named(map::list_status_bits, name);
 }

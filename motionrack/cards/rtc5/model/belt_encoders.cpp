@@ -28,7 +28,7 @@ void BeltEncoders::sample() {
     }
 }
 
-/// Velocities of ticks first .. n-1, whose counts are in the buffer.
+/// Updates the filtered speeds with ticks first .. n-1, whose counts are in the buffer.
 void BeltEncoders::filter_speed(std::size_t first, std::size_t n) {
     const double through = 1 - state_.speed_smooth;
     for (std::size_t number = 0; number < encoder_count; ++number) {

@@ -10,7 +10,7 @@
 
 namespace motionrack::rtc5 {
 
-/// The lower 32 bits as a signed number.
+/// Returns the lower 32 bits of `v` as a signed number, as the card's counters wrap.
 inline std::int32_t wrapped(std::int64_t v) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(v));
 }
@@ -23,36 +23,38 @@ class BeltEncoders {
 
     const BeltCounter& counter(std::size_t encoder) const { return state_.counters[encoder]; }
     std::int32_t count(std::size_t encoder) const { return state_.counters[encoder].count(); }
-    /// Count of the present tick that the correction uses: advanced by the tracking error.
+    /// Returns the count that the correction uses in the present tick: the count plus the tracking error (ticks) times
+    /// the counts per tick.
     double effective(std::size_t encoder) const;
     std::int64_t tracking_error(std::size_t encoder) const { return state_.tracking_error[encoder]; }
 
     // ---- running
-    /// Samples the present tick.
+    /// Reads both encoders in the present tick.
     void sample();
-    /// Samples from this tick to the last of n.
+    /// Advances both encoders from the present tick to the last of the `n` ticks that begin with it.
     void advance(std::int64_t n);
-    /// Counts of n ticks from now on, to the buffer of counts.
+    /// Writes the counts of the next `n` ticks, the present one first, to the buffer of counts.
     void load_counts(std::size_t encoder, std::size_t n);
-    /// The same as the correction uses them, to the buffer of effective values.
+    /// Writes the counts with the tracking error, as effective() defines them, to the buffer of effective values.
     void load_effective(std::size_t encoder, std::size_t n);
     void zero(std::size_t encoder) { state_.counters[encoder].zero = state_.counters[encoder].travel; }
     void zero_at_start(std::size_t encoder) { state_.counters[encoder].reset_at_start = 1; }
-    /// An external start begins a list: zeroes the encoders that wait for it.
+    /// Zeroes the encoders that wait for an external start; called when such a start begins a list.
     void take_start();
 
     // ---- commands
     void set_count(int encoder, std::int32_t counts) { state_.input[static_cast<std::size_t>(encoder)] = counts; }
     void set_tracking_error(std::uint16_t x, std::uint16_t y) { state_.tracking_error = {x, y}; }
     Result<void> simulate(int which);
-    /// store_encoder
+    /// Executes store_encoder: stores both counts at `pos` 0 or 1.
     void store(std::size_t pos);
-    /// Both counts of store_encoder, `pos` 0 or 1.
+    /// Returns both counts that store_encoder stored at `pos` 0 or 1.
     std::array<std::int32_t, 2> stored(int pos) const;
-    /// set_encoder_speed
+    /// Executes set_encoder_speed. `encoder`: 0, 1, or 2 and 3 for both; `counts_ms`: target, clipped to 100 .. 16000
+    /// counts/ms; `smooth`: 0 (no filter) to 1.
     Result<void> watch_speed(int encoder, double counts_ms, double smooth);
     bool speed_watched() const { return state_.speed_watched != 0; }
-    /// Counts/ms after the filters; 0 while not watched.
+    /// Returns the filtered encoder speed in counts/ms; 0 while no speed is watched.
     double speed() const;
 
   private:

@@ -1,4 +1,4 @@
-// Values of the ticks of a block, on their way through the card.
+// Work arrays of the processing pipeline: one value for each tick of a block.
 #pragma once
 
 #include <array>
@@ -7,12 +7,12 @@
 
 namespace motionrack::rtc5 {
 
-/// Valid within a block only: not part of the card's state.
+/// Values of the present block only, so they are not part of the card's state.
 struct BlockBuffers {
     using Doubles = std::array<double, kernels::block>;
     using Counts = std::array<std::int32_t, kernels::block>;
-    Doubles x, y;          ///< positions, before and after the correction
-    Doubles effective[2];  ///< counts or words that the correction uses
+    Doubles x, y;          ///< positions, bits; the correction overwrites them
+    Doubles effective[2];  ///< encoder counts or word values that the correction uses
     Doubles head_x, head_y;
     Counts raw[2], counts[2];  ///< encoder counts
     Counts out[4];             ///< x, y of head A and B

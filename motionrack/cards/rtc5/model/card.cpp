@@ -71,7 +71,7 @@ void Card::sync(Instant now) {
     put_out();
 }
 
-/// Wires that are driven by events.
+/// Writes the present levels of the output wires; xout and yout only while they have listeners.
 void Card::put_out() {
     WireLevels& l = lines_;
     std::int64_t done = 0;
@@ -89,7 +89,7 @@ void Card::put_out() {
     if (kernel_.wanted(wire(yout))) kernel_.set_wire(wire(yout), engine_.output().a[1]);
 }
 
-/// Next instant at which a wire may change.
+/// Schedules the card at the next instant at which one of its wires may change.
 void Card::plan(Instant now) {
     Instant next = lines_.change_count > 0 ? Instant{lines_.changes[0]} : never;
     const bool looked_at = kernel_.wanted(wire(xout)) || kernel_.wanted(wire(yout));
@@ -132,7 +132,8 @@ void Card::on_wire(int pin, int level, Instant now) {
     plan(now);
 }
 
-/// 00 - 01 - 11 - 10 (B A) counts up. A change of both lines at one instant is an error, not a step.
+/// Counts a change of an encoder line: 00 - 01 - 11 - 10 (B A) is up. Both lines changing at one instant is a sequence
+/// error, not a count.
 void Card::count_line(std::size_t encoder, std::int64_t bit, int level, Instant now) {
     const std::int64_t before = lines_.levels[encoder],
                        after = level != 0 ? before | 1 << bit : before & ~(std::int64_t{1} << bit);

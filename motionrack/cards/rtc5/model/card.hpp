@@ -21,14 +21,14 @@ class Card final : public sim::DeferringDevice, private Sink {
     /// Adds the card and its wires "<name>.<pin>" to the kernel. `settings` must pass check().
     Card(sim::Kernel& kernel, const std::string& name, const Settings& settings = {});
 
-    /// The engine for commands and answers, at the present instant. Only between runs; the reference is invalid after a
-    /// run.
+    /// Returns the engine for commands and answers, advanced to the present instant. Allowed only between runs; a run
+    /// invalidates the reference.
     Engine& engine();
-    /// Read-only access: state at the end of the last run.
+    /// Returns the engine read-only, without advancing it to the present instant.
     const Engine& engine() const { return engine_; }
-    /// Read-only access at the present instant, also during a run.
+    /// Returns the engine read-only, advanced to the present instant; also allowed during a run.
     const Engine& caught_up();
-    /// State that a snapshot does not contain: see Engine.
+    /// Copies the data that a snapshot does not contain: see Engine::copy_beside_state().
     void copy_beside_state(const Card& other) { engine_.copy_beside_state(other.engine_); }
     /// Sets the receiver of the samples and laser changes of every executed tick; nullptr: none. It must not call the
     /// card.
@@ -46,7 +46,7 @@ class Card final : public sim::DeferringDevice, private Sink {
   private:
     /// State of the input wires, and pending changes of the laser's wire.
     struct WireLevels {
-        std::array<std::int64_t, encoder_count> levels{};  ///< A, B of an encoder as bits 0, 1
+        std::array<std::int64_t, encoder_count> levels{};  ///< lines A and B of an encoder as bits 0 and 1
         std::array<std::int64_t, encoder_count> changed_at{-1, -1}, last_step{};
         std::int64_t change_count = 0;
         std::array<std::int64_t, 2 * half_us_per_tick>

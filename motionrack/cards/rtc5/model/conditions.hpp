@@ -1,4 +1,4 @@
-// Conditions that the card reports, and their messages.
+// Conditions that the RTC5 reports to the rack, and their messages.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ enum class CardCondition : std::uint16_t {
     unwritten_place = 3  ///< a: position in the list memory, b: the tick
 };
 
-/// "card scan: at 0.012 s ...". `card`: its name.
+/// Returns the message of a condition, as in "card scan: at 0.012 s ...". `card`: the card's name.
 std::string describe(const sim::Condition& condition, std::string_view card);
 
 }  // namespace motionrack::rtc5

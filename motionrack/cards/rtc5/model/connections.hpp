@@ -1,4 +1,4 @@
-// Attached to the card: the receiver of its samples, the source of its inputs, a listener of its lists.
+// Objects attached to the card: a receiver of samples, a source of inputs, a listener of list starts and ends.
 #pragma once
 
 #include <cstdint>
@@ -6,21 +6,22 @@
 
 namespace motionrack::rtc5 {
 
-/// Outputs of consecutive ticks. In the 10 us of tick k the spot of ideal mirrors moves from the output of tick k-1 to
-/// that of tick k.
+/// Outputs of consecutive 10 us ticks. In tick k the spot of ideal mirrors moves from the output of tick k-1 to that
+/// of tick k.
 struct Samples {
-    std::int64_t first = 0;                            ///< tick
+    std::int64_t first = 0;                            ///< tick of the first sample
     std::span<const std::int32_t> x, y;                ///< head A, bits
     std::span<const std::int32_t> x_b, y_b;            ///< head B, empty while no table is selected for it
     std::span<const std::uint8_t> laser;               ///< half-microseconds with the laser on, 0 .. 20
-    std::span<const double> corrected_x, corrected_y;  ///< after fly, before clipping; empty while no correction is on
+    std::span<const double> corrected_x, corrected_y;  ///< bits, after fly, before clipping; empty while fly is off
 };
 
 class Sink {
   public:
     virtual ~Sink() = default;
     virtual void samples(const Samples& block) = 0;
-    /// The gate changes `half_us` half-microseconds after tick 0; called before the block with this tick.
+    /// Reports that the laser gate changes `half_us` half-microseconds after tick 0; called before the block with this
+    /// tick.
     virtual void laser(std::int64_t half_us, bool on) { (void)half_us, (void)on; }
 };
 
@@ -28,9 +29,9 @@ class Sink {
 class Inputs {
   public:
     virtual ~Inputs() = default;
-    /// Counts (x4, wrapping) of an encoder at `first`, `first` + 1, ..
+    /// Writes the counts (four per line period, wrapping at 32 bits) of an encoder at ticks `first`, `first` + 1, ..
     virtual void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) = 0;
-    /// Gets the McBSP word that is complete at these ticks; returns false if this source delivers no words.
+    /// Writes the last complete McBSP word at ticks `first`, `first` + 1, ..; returns false if the source has no words.
     virtual bool words(std::int64_t first, std::span<std::uint32_t> out) { return (void)first, (void)out, false; }
 };
 
@@ -49,11 +50,11 @@ class ListListener {
     virtual void ended(std::int64_t tick) = 0;
 };
 
-/// Not part of the card's state.
+/// Attached objects; not part of the card's state, so a snapshot does not contain them.
 struct Connections {
     Sink* sink = nullptr;              ///< receives the samples of the present run
-    Inputs* inputs = nullptr;          ///< nullptr: set_count and receive give the inputs
-    ListListener* listener = nullptr;  ///< nullptr: none
+    Inputs* inputs = nullptr;          ///< nullptr: inputs come from BeltEncoders::set_count and McBspReceiver::receive
+    ListListener* listener = nullptr;  ///< notified of list starts and ends; nullptr: none
 };
 
 }  // namespace motionrack::rtc5

@@ -18,7 +18,7 @@ Result<void> Engine::execute_list(std::uint32_t list, std::int64_t position) {
     return parts_.execution.execute_at(at);
 }
 
-/// `cause`: bit of the start and stop info.
+/// Stops lists, motion, correction, pending starts, laser and recording. `cause`: bit set in the start and stop info.
 void Engine::stop(std::uint32_t cause) {
     State& s = state_;
     parts_.execution.stop();

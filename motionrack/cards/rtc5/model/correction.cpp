@@ -32,7 +32,7 @@ std::vector<std::int32_t> plane(std::span<const std::uint8_t> bytes, std::size_t
     return out;
 }
 
-/// The first node that is out of range or far from the previous one, or -1.
+/// Returns the index of the first node that is out of range or far from the previous one; -1: none.
 int strange_node(const std::vector<std::int32_t>& nodes) {
     for (int i = 0; i < grid_nodes; ++i) {
         const std::int32_t node = nodes[static_cast<std::size_t>(i)];
@@ -55,7 +55,7 @@ bool is_one_to_one(const CorrectionFile& file) {
     return true;
 }
 
-/// K = 0 is valid only in the maker's 1:1 table, which is older than the known checksum.
+/// Checks the header. K = 0 bits/mm is valid only in the maker's 1:1 table, which is older than the known checksum.
 Result<void> check_header(const CorrectionFile& file, const std::string& name) {
     if (file.header[1] < 0 || file.header[1] > 1'000'000)
         return refusal(name, fmt::format("{} bits/mm in its header; it must be 1 to 1000000", file.header[1]));
@@ -68,7 +68,7 @@ Result<void> check_header(const CorrectionFile& file, const std::string& name) {
     return {};
 }
 
-/// Checks the checksum: known, unknown (with a note), or refused.
+/// Verifies the checksum. Refuses a wrong one; adds a note to a file of an older program, whose checksum is unknown.
 Result<void> check_sum(CorrectionFile& file, std::span<const std::uint8_t> bytes, const std::string& name) {
     const std::uint32_t sum = ct5_checksum(bytes.first(ct5_bytes - 4)),
                         said = static_cast<std::uint32_t>(word_at(bytes, ct5_bytes - 4));
@@ -83,7 +83,7 @@ Result<void> check_sum(CorrectionFile& file, std::span<const std::uint8_t> bytes
     return {};
 }
 
-/// Orientation of the cell's image at all its corners: 1 or -1; 0: it is flat or folded.
+/// Returns the orientation of the cell's image, equal at all its corners: 1 or -1; 0: the image is flat or folded.
 int sense_of_cell(const CorrectionFile& file, std::size_t corner) {
     const auto edge = [&](std::size_t from, std::size_t to) {
         return std::pair(std::int64_t{file.x[to]} - file.x[from], std::int64_t{file.y[to]} - file.y[from]);
@@ -99,8 +99,8 @@ int sense_of_cell(const CorrectionFile& file, std::size_t corner) {
     return left_turns == 4 ? 1 : right_turns == 4 ? -1 : 0;
 }
 
-/// The corner of the first cell whose orientation differs from the cells before it, or -1. Cells that the table puts at
-/// the edge, because the mirrors do not reach them, are skipped; but not all cells may be there.
+/// Returns the corner of the first cell whose orientation differs from the cells before it, or -1. Skips cells that
+/// the table puts at the edge, because the mirrors do not reach them; returns 0 if all cells are there.
 int folded_cell(const CorrectionFile& file) {
     const auto at_edge = [&](std::size_t node) {
         const auto is_end = [](std::int32_t v) { return v <= 0 || v >= max_node; };
@@ -123,7 +123,7 @@ std::int32_t binary(double bits) {
         std::clamp(std::floor(bits + grid_zero + 0.5), 0.0, static_cast<double>(max_node)));
 }
 
-/// Value of a plane at (x, y) bits inside the field.
+/// Interpolates a plane of the table bilinearly at (x, y) bits.
 double between(const std::vector<std::int32_t>& nodes, double x, double y) {
     const double u = std::clamp((x + grid_zero) / grid_step, 0.0, 255.999999),
                  v = std::clamp((y + grid_zero) / grid_step, 0.0, 255.999999);

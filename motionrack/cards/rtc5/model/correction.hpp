@@ -43,10 +43,12 @@ struct CorrectionFile {
 Result<CorrectionFile> read_ct5(std::span<const std::uint8_t> bytes, const std::string& name);
 std::vector<std::uint8_t> written_ct5(const CorrectionFile& file);
 
-/// The table of a lens: X and Y out put the spot at grid / K mm; the inverse planes give the position of the spot.
-/// Positions that the mirrors cannot reach are at the edge. Errors: refused if check(lens) fails.
+/// Makes the table of a lens: output X and Y put the spot at grid / K mm (K: bits per mm); the inverse planes map an
+/// output to the spot's position. Positions that the mirrors cannot reach are set to the edge of the field.
+/// Errors: refused if check(lens) fails.
 Result<CorrectionFile> correction_of(const sim::ScanLens& lens, std::int32_t number = 0);
-/// Output = input, also in the last cell. Its end is slightly above the maximum of a file, where it is clipped.
+/// Makes the 1:1 table: output = input, also in the last cell. The end of that cell is slightly above the maximum of
+/// a file, which clips it.
 CorrectionFile one_to_one();
 
 /// Interpolation table of the card: both coordinates of a node side by side, signed.
@@ -55,11 +57,11 @@ struct Table {
         float x, y;  ///< 20-bit whole numbers, exact in a float
     };
     std::array<GridNode, grid_nodes> nodes;
-    std::array<std::int32_t, 16> header{};  ///< header of the file
-    std::string note;                       ///< note of the file
+    std::array<std::int32_t, 16> header{};  ///< header words of the .ct5 file
+    std::string note;                       ///< CorrectionFile::note of the .ct5 file
 };
 std::shared_ptr<const Table> table_of(const CorrectionFile& file);
-/// Bilinear position of an output by the inverse planes; for displaying the spot.
+/// Returns the spot position of an output (bits), interpolated bilinearly in the inverse planes; for display.
 sim::Spot uncorrected(const CorrectionFile& file, sim::Spot bits);
 
 }  // namespace motionrack::rtc5

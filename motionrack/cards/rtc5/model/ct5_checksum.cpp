@@ -23,7 +23,7 @@ constexpr std::array<std::uint32_t, 256> crc_table = [] {
     return out;
 }();
 
-/// The register after one more byte.
+/// Returns the CRC register after one more byte.
 std::uint32_t next_crc(std::uint32_t crc, std::uint8_t byte) {
     return crc_table[(crc ^ byte) & 0xFF] ^ crc >> 8;
 }

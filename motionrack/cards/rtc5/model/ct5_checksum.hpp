@@ -13,7 +13,7 @@ namespace motionrack::rtc5 {
 inline constexpr std::size_t program_word = 10;
 inline constexpr std::int32_t first_summed = 400;
 
-/// CRC-32 as in zlib, without the final inversion.
+/// Computes the CRC-32 of zlib, without the final inversion.
 std::uint32_t ct5_checksum(std::span<const std::uint8_t> bytes);
 
 /// Describes the damage of a file whose checksum is wrong and whose header names an older program: the known checksum

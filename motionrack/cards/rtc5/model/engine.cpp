@@ -42,7 +42,7 @@ void Engine::begin_tick() {
     parts_.starts.take();
 }
 
-/// At least a tick, at most to `end`.
+/// Executes at least one tick, and at most the ticks before `end`.
 void Engine::piece(std::int64_t end, Sink* sink) {
     begin_tick();
     std::int64_t limit = end - state_.tick;

@@ -21,25 +21,25 @@ class Engine {
     Engine(const Engine&) = delete;
     Engine& operator=(const Engine&) = delete;
 
-    /// The parts, with the commands and answers that concern one of them.
+    /// Returns the parts; commands and answers that concern a single part are called on that part.
     EngineParts& parts() { return parts_; }
     const EngineParts& parts() const { return parts_; }
 
     // ---- lists
-    /// Sets the input pointer of put(): list 1 (odd numbers) or 2 (even numbers), also while the list runs. Positions
-    /// are 0 .. 1048575; behind the list's end they are 0.
+    /// Sets the input pointer of put() to `position` in list 1 (odd numbers) or 2 (even numbers), also while the list
+    /// runs. Positions are 0 .. 1048575; one behind the list's end counts as 0.
     Result<void> set_start_list(std::uint32_t list, std::int64_t position = 0) {
         return parts_.lists.set_start_list(list, position);
     }
     /// Appends a command; refused if the list is full (nothing is changed). `command` must come from list_command().
     Result<void> put(const Command& command) { return parts_.lists.put(command); }
     std::int64_t input_pointer() const { return state_.lists.input; }
-    /// Parameters as set_start_list takes them.
+    /// Starts a list at a position; both parameters are as for set_start_list(). Refused while the card is busy.
     Result<void> execute_list(std::uint32_t list, std::int64_t position = 0);
     void stop_execution() { stop(startstop_bit("INTERNAL_STOP")); }
     void pause_list();
     void restart_list();
-    /// Jumps at the jump speed; only while no list runs.
+    /// Jumps to (x, y) bits at the jump speed; refused while a list runs.
     Result<void> goto_xy(double x, double y);
 
     // ---- control commands
@@ -54,13 +54,13 @@ class Engine {
 
     // ---- external inputs
     void external_stop() { stop(startstop_bit("EXTERNAL_STOP")); }
-    /// Sets the source of inputs; nullptr: BeltEncoders::set_count and McBspReceiver::receive.
+    /// Sets the source of inputs; nullptr: inputs come from BeltEncoders::set_count and McBspReceiver::receive.
     void set_inputs(Inputs* inputs) { connections_.inputs = inputs, parts_.starts.forget_inputs(); }
-    /// Sets the listener; nullptr: none.
+    /// Sets the listener of list starts and ends; nullptr: none.
     void set_listener(ListListener* listener) { connections_.listener = listener; }
 
     // ---- running
-    /// Runs the ticks before `tick`.
+    /// Executes all ticks before `tick`, so that `tick` is the next one; passes their samples to `sink`.
     void run_until(std::int64_t tick, Sink* sink = nullptr);
     /// Runs at most `ticks` ticks until no list runs, nothing moves and no start waits; returns true if this state was
     /// reached.
@@ -74,9 +74,9 @@ class Engine {
     std::uint32_t status() const { return parts_.execution.status(); }
     std::int32_t encoder(int number) const { return parts_.encoders.count(static_cast<std::size_t>(number)); }
     std::uint32_t get_startstop_info();
-    /// The same without clearing.
+    /// Returns the start and stop info without clearing it.
     std::uint32_t startstop_info() const;
-    /// x, y of head A in the last tick.
+    /// Returns the outputs of the last tick: x, y of both heads and Z.
     const HeadOutput& output() const { return parts_.pipeline.output(); }
     const State& state() const { return state_; }
     State& mutable_state() { return state_; }

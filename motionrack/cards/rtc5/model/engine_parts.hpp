@@ -24,7 +24,7 @@
 namespace motionrack::rtc5 {
 
 struct EngineParts {
-    /// The parts keep references to these.
+    /// The parts keep references to all arguments, which must outlive them.
     EngineParts(State& state, const Settings& settings, const Connections& connections, BlockBuffers& buffers)
         : flags(state.flags, state.limits),
           lists(state.lists, state.memory_hash, settings),

@@ -24,25 +24,25 @@ class ExternalStarts {
           connections_(connections),
           buffers_(buffers) {}
 
-    /// A signal at the start input.
+    /// Records a signal at the start input; the next tick evaluates it.
     void trigger() { ++starts_.triggers; }
-    /// simulate_ext_start
+    /// Executes simulate_ext_start: the next tick treats it as an external start with this track delay in counts.
     void ask(std::int64_t delay, std::int64_t encoder);
-    /// Track delay, and the encoder that measures it.
+    /// Sets the track delay of later start signals in counts (0: immediate), and the encoder that measures it.
     void set_delay(std::int64_t delay, std::int64_t encoder) { starts_.delay = delay, starts_.encoder = encoder; }
     void set_position(std::int64_t position) { starts_.position = position; }
-    /// Drops what waits.
+    /// Discards all pending starts.
     void stop();
-    /// Other inputs are attached to the card.
+    /// Discards what was derived from the previous source of inputs; called when another source is attached.
     void forget_inputs() { not_due_.forget(); }
 
     bool waiting() const { return starts_.waiting > 0; }
-    /// Starts were asked for since the last tick.
+    /// Returns true if simulate_ext_start was executed since the last tick.
     bool asked() const { return starts_.asked_count > 0; }
     bool at_rest() const { return starts_.waiting == 0 && starts_.triggers == 0 && starts_.asked_count == 0; }
-    /// Begins the starts that are due in the present tick.
+    /// Queues the new starts and begins the lists whose start is due in the present tick.
     void take();
-    /// Ticks from the present one to that of the first waiting start, at most `limit`.
+    /// Returns the ticks from the present one to the one in which the first waiting start is due, at most `limit`.
     std::int64_t ticks_to_start(std::int64_t limit);
 
   private:

@@ -212,14 +212,14 @@ void FlyCorrection::check_z(std::size_t n) {
     }
 }
 
-/// Z in the last sampled tick.
+/// Returns Z in the last tick with sampled inputs.
 double FlyCorrection::z_now() const {
     const Fly& f = state_.now;
     if (f.kind == FlyKind::multi) return z_ + static_cast<double>(mcbsp_.typed(2));
     return f.z ? z_ + f.scale_z * encoders_.effective(static_cast<std::size_t>(f.z_encoder)) : z_;
 }
 
-/// Position of `p` after the correction in this tick; backwards: the position that the correction maps to `p`.
+/// Returns `p` after the correction of this tick; `backwards`: the position that the correction maps to `p`.
 Point FlyCorrection::shifted(Point p, bool backwards) const {
     const Fly& f = state_.now;
     double value[2] = {0, 0};

@@ -22,14 +22,16 @@ class FlyCorrection {
     bool on() const { return state_.now.on(); }
 
     // ---- commands
-    /// set_fly_x and the like, except fly_return.
+    /// Executes a list command that switches a correction on or off (set_fly_x, ..), except fly_return.
     void take(const Command& c);
     Result<void> set_mcbsp_in(int mode, double scale);
-    /// The same with parameters that are known to be valid.
+    /// Executes set_mcbsp_in with validated parameters.
     void correct_axes(int mode, double scale);
-    /// Words carry their type; words of type 3 are the laser's power (see McBspReceiver::power).
+    /// Executes set_multi_mcbsp_in: from now on McBSP words carry their type; those of type 3 are the laser's power
+    /// (see McBspReceiver::power).
     Result<void> set_multi_mcbsp_in(int port, std::int64_t factor, int mode);
-    /// Online positioning: scale 0 and a resolution below 100 disable it.
+    /// Sets online positioning by McBSP words. Scale 0 (offset per word unit, bits) disables X or Y; a resolution below
+    /// 100 word units per revolution disables the angle.
     Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution);
     /// Each sets one parameter of online positioning (scale of X, scale of Y, resolution of the angle) and keeps the
     /// other two.
@@ -38,11 +40,11 @@ class FlyCorrection {
     Result<void> set_mcbsp_rot(double resolution);
     /// Sets one of these parameters by its number: X (0), Y (1) or the angle (2).
     void set_online(std::size_t which, double value);
-    /// Online positioning of matrix coefficients: words of (M * 2^24) * 4 + 2 i + j, |M| < 32.
+    /// Sets online positioning of matrix coefficients by McBSP words of (M * 2^24) * 4 + 2 i + j, |M| < 32.
     void set_mcbsp_matrix();
     Result<void> set_rot_center(Point centre);
     void turn_about(Point centre) { state_.rot_center = centre; }
-    /// init_fly_2d
+    /// Executes init_fly_2d: zeroes both encoders and sets the offsets (counts) that the 2D correction adds to them.
     void zero_2d(std::int32_t offset_x, std::int32_t offset_y);
     void set_z(double z) { z_ = z; }
 
@@ -51,23 +53,23 @@ class FlyCorrection {
     void copy_table(const FlyCorrection& other) { table_ = other.table_; }
 
     // ---- the position p before the correction, at changes of the correction; each returns the new one
-    /// Switches the correction off; p takes it over.
+    /// Switches the correction off and adds it to `p`, so the output does not jump.
     Point leave(Point p, const Transform& global);
-    /// park_position; `pause`: the correction pauses meanwhile.
+    /// Executes park_position; `pause`: the correction is off until end_parking().
     Point park(Point p, const Transform& global, bool pause);
-    /// Continues after park().
+    /// Resumes the correction that park() paused.
     Point end_parking(Point p, const Transform& global);
     Point park_from() const { return state_.park_from; }
 
     // ---- running
     /// Corrects the positions x and y of n ticks.
     void apply(std::size_t n);
-    /// Raises the flags of n corrected ticks. Returns their extent.
+    /// Raises the marking info's flags for n corrected positions. Returns their extent.
     PlanExtent check(std::size_t n);
-    /// Extent of n ticks of the activity, if it is far enough inside field and limits that no flag can be set. `moves`:
-    /// the activity runs; else the position stays at p.
+    /// Returns the extent of the corrected positions in n ticks, if it is so far inside field and limits that they set
+    /// no flag; else nullopt. `moves`: the activity runs; else the position stays at `p`.
     std::optional<PlanExtent> steady_extent(const Activity& a, bool moves, Point p, std::int64_t n) const;
-    /// Z of the last of n ticks that were executed.
+    /// Returns the output Z of the last of `n` executed ticks, clipped to -32768 .. 32767 bits.
     double output_z(std::size_t n) const;
 
   private:

@@ -68,7 +68,7 @@ Result<Points> points_of(std::string_view text, const std::string& section, cons
     return points;
 }
 
-/// The cell of `value` and the fraction within it.
+/// Finds the grid cell of `value`; returns its index and the fraction (0 .. 1) within it.
 std::pair<std::size_t, double> cell(const std::vector<double>& grid, double value) {
     if (!(value > grid.front())) return {0, 0.0};
     if (value >= grid.back()) return {grid.size() - 2, 1.0};

@@ -23,7 +23,7 @@ class FlyTable {
     struct Shift {
         double x = 0, y = 0;
     };
-    /// Bilinear; constant beyond the edge of the grid.
+    /// Returns the offsets in counts at these encoder counts: bilinear in the grid, constant beyond its edge.
     Shift at(double encoder0, double encoder1) const;
 
   private:

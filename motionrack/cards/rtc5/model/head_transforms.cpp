@@ -10,7 +10,7 @@ namespace motionrack::rtc5 {
 
 namespace {
 
-/// Scale * Angle * Matrix, and whether it is the identity.
+/// Updates the product Scale * Angle * Matrix, and whether the transform is the identity.
 void multiply(Transform& t) {
     const SinCos turn = sin_cos(t.angle_deg * (pi / 180));
     const double c = t.scale * turn.cos, s = t.scale * turn.sin;

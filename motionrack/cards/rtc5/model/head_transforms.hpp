@@ -1,5 +1,5 @@
-// The transforms of the scan heads and before the correction, the correction tables, gain: from corrected positions to
-// outputs.
+// Transforms of the scan heads, the global transform before the correction, correction tables and gain: from corrected
+// positions to outputs.
 #pragma once
 
 #include <array>
@@ -19,23 +19,24 @@ class HeadTransforms {
     HeadTransforms(TransformsState& state, BlockBuffers& buffers) : state_(state), buffers_(buffers) {}
 
     // ---- commands
-    /// at_once 0, 1, 3: with the next tick; 2: with the next jump. `head`: 1 A, 2 B, 3 both, 4 all, before fly.
+    /// Sets the matrix. `at_once` 0, 1, 3: from the next tick on; 2: from the next jump on. `head`: 1 A, 2 B, 3 both,
+    /// 4 the global transform before the fly correction. The following functions take the same two arguments.
     Result<void> set_matrix(int head, std::array<double, 4> matrix, int at_once);
     Result<void> set_offset(int head, Point offset, int at_once);
     Result<void> set_angle(int head, double degrees, int at_once);
     Result<void> set_scale(int head, double scale, int at_once);
-    /// apply_mcbsp
+    /// Executes apply_mcbsp: copies offset, angle or coefficient of online positioning to a transform.
     Result<void> apply(const McBspReceiver& mcbsp, int head, int at_once);
-    /// set_matrix_list and the like
+    /// Executes the list form of one of the commands above (set_matrix_list, ..).
     void take(const Command& c);
     Result<void> set_hi(int head, Point gain, Point offset);
-    /// Loads table 1 to 4; nullptr: 1:1.
+    /// Loads correction table 1 to 4; nullptr: 1:1.
     Result<void> load_table(std::shared_ptr<const Table> table, int number);
-    /// Selects the tables of head A and B, 0 .. 4; 0: A: 1:1, B: no output.
+    /// Selects the correction tables (1 .. 4) of both heads; 0: 1:1 for head A, no output for head B.
     Result<void> select_tables(int head_a, int head_b);
 
     // ---- tables, which are not part of the state
-    /// Table 1 .. 4; nullptr: 1:1.
+    /// Returns correction table 1 .. 4; nullptr: 1:1, as for number 0.
     const Table* table(std::int64_t number) const {
         return number == 0 ? nullptr : tables_[static_cast<std::size_t>(number - 1)].get();
     }
@@ -43,15 +44,15 @@ class HeadTransforms {
     void copy_tables(const HeadTransforms& other) { tables_ = other.tables_; }
 
     // ---- running
-    /// A jump begins: transforms that wait for it apply.
+    /// Applies the transforms that wait for a jump; called when a jump begins.
     void begin_jump();
     bool wait_for_jump() const { return state_.later_count != 0; }
-    /// The transform before the correction.
+    /// Returns the global transform, which is applied before the correction.
     const Transform& global() const { return state_.global; }
     const Head& head(std::size_t number) const { return state_.heads[number]; }
-    /// Head B has an output.
+    /// Returns true if head B has an output.
     bool second_head() const { return state_.heads[1].table != 0; }
-    /// Transforms n positions of the block before the correction.
+    /// Applies the global transform to `n` positions of the block.
     void transform_block(std::size_t n) {
         if (!state_.global.neutral) kernels::transform(buffers_.x.data(), buffers_.y.data(), n, state_.global);
     }

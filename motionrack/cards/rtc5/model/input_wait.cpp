@@ -14,7 +14,7 @@ bool InputWait::met(std::int64_t before, std::int64_t present) const {
     return change < 0 && (wrapped(value - before) < 0) != (wrapped(value - present) < 0);
 }
 
-/// The same in tick i of the block, whose counts or words are loaded.
+/// Returns true if the wait ends in tick `i` of the block, whose counts or words are loaded.
 bool InputWait::met_at(std::size_t i) const {
     const Activity& a = activity_;
     if (i == 0) return met_now();

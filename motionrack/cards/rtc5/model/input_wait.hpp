@@ -14,10 +14,11 @@ class InputWait {
     InputWait(const Activity& activity, BeltEncoders& encoders, McBspReceiver& mcbsp, BlockBuffers& buffers)
         : activity_(activity), encoders_(encoders), mcbsp_(mcbsp), buffers_(buffers) {}
 
-    /// Number of ticks of the wait among the next `limit`, including the one that ends it; `over`: it ends in them.
+    /// Returns how many of the next `limit` ticks the wait takes, including the one that ends it; sets `over` if it
+    /// ends within them.
     std::int64_t ticks(std::int64_t limit, bool& over);
-    /// Number of ticks of the wait as ticks() finds it, but calculated from constant or simulated counts; 2^60: these
-    /// counts never end the wait; -1: ticks() must evaluate each tick.
+    /// Calculates the ticks of the wait from constant or simulated counts. Returns 2^60 if these counts never end the
+    /// wait, -1 if ticks() must evaluate each tick.
     std::int64_t steady_ticks(bool& over) const;
 
   private:

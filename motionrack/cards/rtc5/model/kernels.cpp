@@ -56,7 +56,7 @@ PlanExtent extent(const double* x, const double* y, std::size_t n) {
 
 namespace {
 
-/// Both coordinates at once: two doubles fill one register on every target.
+/// Both coordinates of a position: two doubles fill one vector register on every target.
 using Pair = double __attribute__((vector_size(16)));
 using Whole = std::int64_t __attribute__((vector_size(16)));
 

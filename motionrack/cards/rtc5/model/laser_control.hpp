@@ -14,16 +14,17 @@ class LaserControl {
     LaserControl(Laser& laser, const std::int64_t& tick, const Connections& connections, BlockBuffers& buffers)
         : laser_(laser), tick_(tick), connections_(connections), buffers_(buffers) {}
 
-    /// The samples of the present tick are not written yet.
+    /// Begins a tick or block: its laser samples are not written yet.
     void begin_tick() { filled_ = tick_; }
-    /// Switches at a half-microsecond, not before `tick`; drops later changes. A disabled laser stays off.
+    /// Switches the laser `half_us` half-microseconds after tick 0, but not before `tick`; drops later changes. A
+    /// disabled laser stays off.
     void switch_at(std::int64_t half_us, bool on, std::int64_t tick);
-    /// Switches at the begin of the present tick.
+    /// Switches the laser at the begin of the present tick.
     void switch_now(bool on);
-    /// Drops the pending changes and switches off.
+    /// Drops the pending changes and switches the laser off.
     void switch_off();
     void enable() { laser_.disabled = 0; }
-    /// Switches off, until it is enabled.
+    /// Switches the laser off and keeps it off until enable().
     void disable();
     /// Executes the changes before `tick`, and writes their samples for a sink.
     void run_until(std::int64_t tick);

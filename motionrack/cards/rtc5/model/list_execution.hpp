@@ -15,33 +15,33 @@ class ListExecution {
         : lists_(lists), flags_(flags), connections_(connections) {}
 
     bool is_running() const { return lists_.running != 0; }
-    /// A list runs, or the card moves by goto_xy.
+    /// Returns true if a list runs or the card moves by goto_xy.
     bool is_busy() const { return lists_.running || lists_.moving_alone; }
-    /// get_status
+    /// Returns the answer of get_status, whose bits map::status_bits names.
     std::uint32_t status() const;
     std::int64_t position() const { return lists_.current; }
 
     void auto_change() { lists_.auto_change = 1; }
     void start_loop() { lists_.loop = 1; }
     void quit_loop() { lists_.loop = 0; }
-    /// execute_at_pointer
+    /// Executes execute_at_pointer: starts a list at a memory position. Refused while the card is busy.
     Result<void> execute_at(std::int64_t position);
-    /// Begins at a position. `cause`: bit of the start and stop info.
+    /// Begins a list at a memory position. `cause`: bit set in the start and stop info.
     void begin(std::int64_t position, std::uint32_t cause);
     /// Ends the running list; the other list may follow. `written`: by set_end_of_list, not by an empty position.
     void end(bool written, std::int64_t tick);
-    /// Continues at a position and returns later. A call to an undefined target (-1) is a list_nop. Returns false if
-    /// the command takes a tick.
+    /// Calls a subroutine at a memory position; list_return continues behind the call. A call to an
+    /// undefined target (-1) is a list_nop. Returns false if the command takes a tick.
     bool call(std::int64_t position, std::int64_t tick);
     /// Start position of a subroutine; -1: undefined.
     std::int64_t subroutine(std::int64_t index) const;
-    /// list_return. Returns false if the command takes a tick.
+    /// Executes list_return. Returns false if the command takes a tick, because no call is open.
     bool come_back();
-    /// Returns true if the laser was on; it goes off with the list.
+    /// Pauses the running list. Returns true if the laser was on and must be switched off.
     bool pause();
     /// Continues after pause(). Returns true if the laser is switched on again.
     bool restart();
-    /// Ends all lists and what waits for their end.
+    /// Ends the running list with its calls, pause, loop and automatic change, and a goto_xy.
     void stop();
 
   private:

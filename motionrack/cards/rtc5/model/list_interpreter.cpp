@@ -93,7 +93,7 @@ void ListInterpreter::finish(std::int64_t tick) {
     parts_.path.begin_hold(delay);
 }
 
-/// The mark that continues the polyline, or nullptr.
+/// Returns the next mark command if it continues the polyline, else nullptr.
 const Command* ListInterpreter::next_mark() const {
     const Lists& l = state_.lists;
     if (!l.running) return nullptr;
@@ -111,7 +111,7 @@ void ListInterpreter::jump_to(Point target) {
     parts_.path.begin_jump(target);
 }
 
-/// Switches the laser on for a mark. Returns false if the mark must wait before it moves, and be repeated.
+/// Switches the laser on for a mark. Returns false if the mark must wait before it moves; its command is then repeated.
 bool ListInterpreter::begin_polyline(std::int64_t tick) {
     if (state_.lists.marking) return true;
     state_.lists.marking = 1;

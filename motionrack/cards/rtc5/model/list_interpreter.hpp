@@ -42,7 +42,7 @@ class ListInterpreter {
     /// Fast path for dense lists: consecutive micro-vectors that do not switch the laser, from tick n of the block on,
     /// up to `capacity`. Returns the next tick.
     std::size_t micro_vectors(std::size_t n, std::size_t capacity);
-    /// A jump at the jump speed.
+    /// Begins a jump at the jump speed; transforms that wait for a jump apply.
     void jump_to(Point target);
 
   private:

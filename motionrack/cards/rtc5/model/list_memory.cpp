@@ -41,7 +41,7 @@ Result<void> check_position(std::int64_t position) {
                                                 position, max_list_memory - 1));
 }
 
-/// Hash of a command at its position; 0 for an empty position.
+/// Returns the hash of a command at its position; 0 for an empty position.
 std::uint64_t hash_at(std::int64_t position, const Command& c) {
     if (c.op == Op::none) return 0;
     std::uint64_t h = static_cast<std::uint64_t>(position) << 16 ^ static_cast<std::uint64_t>(c.op);
@@ -61,11 +61,11 @@ void store(std::span<Command> memory, std::uint64_t& memory_hash, std::int64_t p
     stored = command;
 }
 
-/// Index 0 for list 1, 1 for list 2; without memory list 2 is list 1.
+/// Returns index 0 for list 1 (odd numbers), 1 for list 2 (even numbers); 0 if list 2 has no memory.
 std::size_t list_of(std::uint32_t number, const Lists& l) {
     return number % 2 == 0 && l.begin[2] > l.begin[1] ? 1 : 0;
 }
-/// Memory position of `position` in list `list`.
+/// Returns the memory position of `position` in the list with index `list`.
 std::int64_t place(std::size_t list, std::int64_t position, const Lists& l) {
     const std::int64_t begin = l.begin[list];
     return position < l.begin[list + 1] - begin ? begin + position : begin;

@@ -1,4 +1,4 @@
-// The memory of the lists: list 1, list 2, and list 3 with the subroutines; where the next command goes.
+// Memory of the lists: list 1, list 2, and list 3 with the subroutines; input pointer of the next command.
 #pragma once
 
 #include <cstdint>
@@ -24,19 +24,19 @@ class ListMemory {
     /// Empties all positions.
     void clear();
 
-    /// list2 of -1: the remaining memory.
+    /// Sets the sizes of list 1 and list 2 in positions; `list2` -1: the remaining memory.
     Result<void> configure(std::int64_t list1, std::int64_t list2);
     Result<void> set_start_list(std::uint32_t list, std::int64_t position = 0);
-    /// As set_start_list for a list that is not running: 1, 2, a free one (0), or a free one that ran to its end (3).
-    /// Returns the opened list; 0: none, and put() is refused until a list is opened.
+    /// Opens a list that is not running, as set_start_list() does: list 1, 2, a free one (0), or a free one that ran to
+    /// its end (3). Returns the opened list; 0: none, and put() is refused until a list is opened.
     Result<std::uint32_t> load_list(std::uint32_t list, std::int64_t position);
     /// Stores the commands up to list_return as subroutine `index` (0 .. 1023) in list 3; without commands the
     /// subroutine is deleted.
     Result<void> load_sub(std::uint32_t index);
     Result<void> put(const Command& command);
-    /// Memory position of `position` in list 1 (odd numbers) or 2 (even numbers).
+    /// Returns the memory position of `position` in list 1 (odd numbers) or 2 (even numbers).
     Result<std::int64_t> find_position(std::uint32_t list, std::int64_t position) const;
-    /// read_status
+    /// Returns the answer of read_status, whose bits map::list_status_bits names.
     std::uint32_t status() const;
 
   private:

@@ -50,7 +50,7 @@ std::int32_t McBspReceiver::axis_value(std::uint32_t word, bool y) const {
     return static_cast<std::int16_t>(y ? word >> 16 : word & 0xFFFF);
 }
 
-/// Memory locations of this tick.
+/// Stores the present word in the memory locations that receive it.
 void McBspReceiver::store_word() {
     McBsp& m = state_;
     const auto word = static_cast<std::uint32_t>(m.word);
@@ -154,7 +154,7 @@ void McBspReceiver::begin_typed_words(std::int64_t port, std::int64_t factor, st
     m.memory = {}, m.filled = 15;
 }
 
-/// Positioning and correction by McBSP exclude each other.
+/// Ends online positioning; it and a correction by McBSP words exclude each other.
 void McBspReceiver::end_positioning() {
     McBsp& m = state_;
     m.online_x = m.online_y = m.online_rot = m.online_matrix = 0;

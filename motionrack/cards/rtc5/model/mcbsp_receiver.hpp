@@ -1,4 +1,4 @@
-// The words received over McBSP: in a tick, in blocks, over intervals; where they go and what they mean.
+// Receiver of McBSP words (serial position data): stores them in the memory locations and decodes their values.
 #pragma once
 
 #include <array>
@@ -19,29 +19,31 @@ class McBspReceiver {
         : state_(state), fly_(fly), tick_(tick), connections_(connections), buffers_(buffers) {}
 
     // ---- running
-    /// A word that counts from the next tick on.
+    /// Receives a word, which is valid from the next tick on.
     void receive(std::uint32_t word);
-    /// Samples the present tick.
+    /// Reads the words of the present tick.
     void sample();
-    /// Samples from this tick to the last of n.
+    /// Reads the words from the present tick to the last of the `n` ticks that begin with it.
     void advance(std::int64_t n);
-    /// Words of n ticks from now on, to the buffer of words. Returns false if no source of inputs has them.
+    /// Writes the words of the next `n` ticks, the present one first, to the buffer of words. Returns false if no
+    /// source of inputs has them.
     bool load_words(std::size_t n);
-    /// Values of x and y in n ticks from now on, to the buffer of effective values.
+    /// Writes x and y of the next `n` ticks, the present one first, to the buffer of effective values.
     void load_values(std::size_t n);
 
     // ---- the present word
-    /// x and y
+    /// Returns x and y of the present word, or of the last words of type 0 and 1 while words carry their type.
     Point now() const;
     std::int32_t axis_value(std::uint32_t word, bool y) const;
     std::uint32_t word() const { return static_cast<std::uint32_t>(state_.word); }
     std::uint32_t previous() const { return static_cast<std::uint32_t>(state_.previous); }
-    /// The last value of a type 0 .. 7.
+    /// Returns the value of the last word of a type 0 .. 7: 29 bits, signed.
     std::int32_t typed(int type) const { return state_.typed[static_cast<std::size_t>(type & 7)]; }
     Result<std::int32_t> read(int location) const { return state_.read(location); }
-    /// The present word, also copied to location 0. Errors: refused if none has been received.
+    /// Returns the present word and copies it to location 0. Errors: refused if none has been received.
     Result<std::int32_t> store_now();
-    /// Value that set_multi_mcbsp_in puts on the port: that of type 3 (mode 0), or factor * value / 16384 (mode 1).
+    /// Returns the value that set_multi_mcbsp_in outputs at the port: that of type 3 (mode 0), or
+    /// factor * value / 16384 (other modes).
     std::int64_t power() const;
 
     // ---- use of the words
@@ -52,13 +54,13 @@ class McBspReceiver {
     /// Applies set_multi_mcbsp_in to the words that follow: each carries its type.
     void begin_typed_words(std::int64_t port, std::int64_t factor, std::int64_t mode);
     bool words_have_types() const { return state_.multi != 0; }
-    /// Online positioning by these scales; returns whether it is on then.
+    /// Starts online positioning with these scales; returns false if all are off (scale 0, resolution below 100).
     bool begin_positioning(double scale_x, double scale_y, double resolution);
-    /// Scales of x, y and the resolution of the present positioning; 0: off.
+    /// Returns the scales of x and y and the resolution of online positioning; 0: off.
     std::array<double, 3> positioning_scales() const;
-    /// Positioning by matrix coefficients.
+    /// Reads the words of online positioning as matrix coefficients.
     void position_by_matrix() { state_.online_matrix = 1; }
-    /// Sets what the words for positioning say of a transform.
+    /// Sets the offset, angle or matrix coefficient of a transform from the words for online positioning.
     void apply_positioning(Transform& t) const;
 
   private:

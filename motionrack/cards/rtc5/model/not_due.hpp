@@ -1,4 +1,4 @@
-// The tick up to which a waiting start is known not to be due, by the inputs evaluated.
+// Cache: the tick up to which a waiting external start is known not to be due, from inputs already evaluated.
 #pragma once
 
 #include <array>
@@ -12,20 +12,21 @@ inline bool due(const Start& start, std::int64_t travel) {
     return start.delay > 0 ? travel >= start.target : travel <= start.target;
 }
 
-/// Not part of the card's state: a rewind or a reset leaves it with the values of another past. It therefore stores the
-/// travel of each tick, and is valid only while the card's travel is equal; the same inputs then lead to the same
-/// future.
+/// Cached result, not part of the card's state: after a rewind or a reset it may belong to another past. It therefore
+/// stores the travel of each tick, and is valid only while the card's travel is equal; the same inputs then lead to
+/// the same future.
 class NotDue {
   public:
     bool holds(const Start& start, std::int64_t tick, std::int64_t travel) const {
         return start_.target == start.target && start_.delay == start.delay && start_.encoder == start.encoder &&
                from_ <= tick && tick < until_ && travel_[static_cast<std::size_t>(tick - from_)] == travel;
     }
-    /// The first tick in which the start may be due.
+    /// Returns the first tick in which the start may be due.
     std::int64_t until() const { return until_; }
     /// Discards the result because the inputs have changed.
     void forget() { until_ = from_; }
-    /// `counts`: those of its encoder from `tick` on, at most kernels::block; at `tick` the start is not due.
+    /// Finds the tick from the encoder's `counts` at `tick`, `tick` + 1, .. (at most kernels::block). `travel`: travel
+    /// at `tick`, where the start must not be due.
     void update(const Start& start, std::int64_t tick, std::int64_t travel, std::span<const std::int32_t> counts) {
         start_ = start;
         from_ = tick;

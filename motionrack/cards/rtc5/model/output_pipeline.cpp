@@ -28,7 +28,7 @@ void OutputPipeline::run(std::size_t n, Sink* sink) {
                    fly_.on() ? std::span<const double>(b.y.data(), n) : std::span<const double>{}});
 }
 
-/// Output of the last of n ticks.
+/// Stores the output of the last of `n` ticks.
 void OutputPipeline::keep_output(std::size_t n) {
     const BlockBuffers& b = buffers_;
     HeadOutput& o = output_;

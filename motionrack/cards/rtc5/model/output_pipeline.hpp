@@ -26,9 +26,9 @@ class OutputPipeline {
           recorder_(recorder),
           buffers_(buffers) {}
 
-    /// Computes the outputs of n ticks for `sink`; without one only flags and a recording.
+    /// Computes the outputs of n ticks and passes them to `sink`; without a sink it computes only flags and recordings.
     void run(std::size_t n, Sink* sink);
-    /// Skips ticks that set no flag; `extent`: that of their corrected positions.
+    /// Skips ticks that set no flag; `extent`: extent of their corrected positions, bits.
     void skip(const PlanExtent& extent) {
         extent_.take(extent);
         evaluated_ = false;
@@ -36,8 +36,8 @@ class OutputPipeline {
     /// Computes the output of the last tick if it was skipped.
     void evaluate();
     const HeadOutput& output() const { return output_; }
-    /// Extent of the corrected position (before clipping) while a correction was on, since clear_extent: the margin of
-    /// a job in the field. Not part of the state.
+    /// Returns the extent of the corrected positions (bits, before clipping) while a correction was on, since
+    /// clear_extent(). It gives a job's margin in the field and is not part of the state.
     const PlanExtent& extent() const { return extent_; }
     void clear_extent() { extent_ = {}; }
 

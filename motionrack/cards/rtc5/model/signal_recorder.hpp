@@ -17,11 +17,11 @@ class SignalRecorder {
     SignalRecorder(Recording& recording, Sender& sender, const State& card, const HeadTransforms& heads)
         : recording_(recording), sender_(sender), card_(card), heads_(heads) {}
 
-    /// set_trigger and set_trigger4.
+    /// Executes set_trigger or set_trigger4.
     void begin(const Command& c, std::int64_t tick);
     /// Ends a recording; its samples are kept.
     void stop() { recording_.period = 0; }
-    /// Ticks to the next sample if the list continues to run; 0: the present tick.
+    /// Returns the ticks to the next sample while recording continues; 0: the present tick.
     std::int64_t ticks_to_sample() const;
     /// True if the present tick has a sample; called after its commands.
     bool samples_now() const { return ticks_to_sample() == 0; }
@@ -29,19 +29,18 @@ class SignalRecorder {
     void record();
 
     const Recording& recording() const { return recording_; }
-    /// Sample `i` of `channel` (0 ..).
+    /// Returns sample `i` of `channel` (0 .. 3).
     std::int32_t recorded(std::int64_t channel, std::int64_t i) const {
         return samples_[static_cast<std::size_t>(i * recording_.channels + channel)];
     }
     /// Takes the samples, which are not part of the state, from the card whose state was copied.
     void copy_samples(const SignalRecorder& other);
 
-    /// Value of a signal in the last tick.
+    /// Returns the value of a signal in the last tick. Errors: refused if the card has no signal of that number.
     Result<std::int32_t> value(std::uint32_t signal) const;
-    /// set_mcbsp_out: signals that are sent from the next tick on, one per tick, in turn; none: sending ends. At
-    /// most 8.
+    /// Executes set_mcbsp_out: sends up to 8 signals in turn, one per tick, from the next tick on; none: sending ends.
     Result<void> send(std::span<const std::uint32_t> signals);
-    /// The word sent in the last tick; 0 while sending is off.
+    /// Returns the word sent over McBSP in the last tick; 0 while sending is off.
     std::int32_t sent() const;
 
   private:

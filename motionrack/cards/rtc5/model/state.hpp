@@ -1,5 +1,5 @@
 // The state of the card except its lists and tables. Every member has 8 bytes (or comes in pairs), so no padding enters
-// a snapshot's hash. A part whose reset() keeps something has one of its own; the others get their first values.
+// a snapshot's hash. A part that keeps values at a reset has its own reset(); the others get their initial values.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct Point {
     friend constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 };
 
-/// Extent of positions; empty at first.
+/// Bounding box of positions in bits; initially empty.
 struct PlanExtent {
     double min_x = std::numeric_limits<double>::infinity(), max_x = -std::numeric_limits<double>::infinity();
     double min_y = std::numeric_limits<double>::infinity(), max_y = -std::numeric_limits<double>::infinity();
@@ -32,13 +32,14 @@ struct PlanExtent {
     }
 };
 
-/// Angle of a rotary correction in radians. Whole turns are removed, so every count has an angle.
+/// Returns the angle of a rotary correction in radians, 0 to 2 pi, for an encoder count or word; `resolution`: counts
+/// per revolution.
 inline double turn_of(double value, double resolution) {
     const double turns = value / resolution;
     return 2 * pi * (turns - std::floor(turns));
 }
 
-/// x' = m11 x + m12 y + ox. Matrix = Scale * Angle * Matrix.
+/// Affine transform: x' = m11 x + m12 y + ox, with m = `product` = Scale * Angle * Matrix.
 struct Transform {
     std::array<double, 4> matrix{1, 0, 0, 1};
     double angle_deg = 0, scale = 1;
@@ -55,11 +56,12 @@ struct Activity {
     ActivityKind kind = ActivityKind::none;
     Ending ending = Ending::none;
     std::int64_t done = 0, steps = 0;
-    Point from, step, to;                 ///< line; arc: from is the radius, to the centre, step.x the angle of a step
-    std::array<std::int64_t, 4> value{};  ///< waits: values; then encoder or axis, mode
-    Point direction;                      ///< direction at its end, for the corner
+    Point from, step, to;                 ///< line; arc: from: radius vector, to: centre, step.x: radians per tick
+    std::array<std::int64_t, 4> value{};  ///< parameters of a wait: value(s), encoder or axis, mode
+    Point direction;                      ///< direction of motion at the end, for the corner delay
 
-    /// After `steps_done` steps. `stationary`: the position in which other activities than lines and arcs stay.
+    /// Returns the position after `steps_done` steps. `stationary`: position during activities other than lines and
+    /// arcs.
     Point position(std::int64_t steps_done, Point stationary) const {
         const double at = static_cast<double>(steps_done);
         if (kind == ActivityKind::line)
@@ -83,12 +85,12 @@ struct BeltCounter {
 struct EncodersState {
     std::array<BeltCounter, encoder_count> counters{};
     std::array<std::int64_t, encoder_count> input{};  ///< counts of the input lines
-    std::array<std::int64_t, 4> stored{};             ///< Encoder0, Encoder1 of Pos 0; of Pos 1
+    std::array<std::int64_t, 4> stored{};             ///< counts of Encoder0, Encoder1 at Pos 0, then at Pos 1
     std::array<std::int64_t, encoder_count> tracking_error{};
     std::int64_t speed_watched = 0, speed_encoder = 0;
     double speed_target = 0, speed_smooth = 0;
 
-    /// Keeps the input lines.
+    /// Resets everything except the counts of the input lines.
     void reset();
 };
 
@@ -96,14 +98,14 @@ enum class FlyKind : std::int64_t { off, encoder, encoder_2d, encoder_rot, mcbsp
 
 struct Fly {
     FlyKind kind = FlyKind::off;
-    std::int64_t x = 0, y = 0, z = 0;  ///< enabled corrections
+    std::int64_t x = 0, y = 0, z = 0;  ///< 1: the axis is corrected
     double scale_x = 0, scale_y = 0, scale_z = 0, resolution = 0;
     std::int64_t z_encoder = 0;
     bool on() const { return kind != FlyKind::off; }
 };
 
 struct FlyState {
-    Fly now, paused;  ///< paused: by park_position
+    Fly now, paused;  ///< paused: correction that park_position paused
     Point park_from, rot_center, offset_2d;
     std::int64_t parked = 0;
     bool on() const { return now.on(); }
@@ -120,7 +122,7 @@ struct McBsp {
     std::int64_t pending_count = 0;
     std::int64_t to_zero = 0;   ///< location 0 receives all words
     std::int64_t received = 0;  ///< a word has been received
-    std::int64_t filled = 0;    ///< bits of the locations that have a value
+    std::int64_t filled = 0;    ///< bit i: location i has a value
     std::int64_t in_mode = 0, multi = 0, round = 0;
     std::int64_t online_x = 0, online_y = 0, online_rot = 0;
     std::int64_t online_matrix = 0;
@@ -132,21 +134,21 @@ struct McBsp {
         filled |= std::int64_t{1} << location;
     }
     bool online() const { return online_x || online_y || online_rot; }
-    /// Keeps the words, and location 0 with its filling.
+    /// Resets everything except the received words, and location 0 with its filled bit.
     void reset();
-    /// Received words go there (too).
+    /// Returns true if received words are stored at this location.
     bool goes_to(int location) const;
-    /// Value of location 0 .. 3. Errors: refused if the location is empty; the sentence names the command that must
-    /// come first.
+    /// Returns the value of location 0 .. 3. Errors: refused if the location is empty; the sentence names the command
+    /// that must come first.
     Result<std::int32_t> read(int location) const;
 };
 
-/// Corrected positions without a LIMIT flag: min and max of X, of Y, of Z.
+/// Range of corrected positions that set no LIMIT flag, bits: min and max of X, Y and Z.
 using FlyLimits = std::array<std::int64_t, 6>;
 
 struct FlagsState {
     std::int64_t marking_info = 0, startstop_info = 0;
-    std::array<std::int64_t, 32> flag_tick{};  ///< tick at which a bit of marking info was set, since it was last clear
+    std::array<std::int64_t, 32> flag_tick{};  ///< tick at which a bit of the marking info changed from 0 to 1
 };
 
 struct Laser {
@@ -156,7 +158,7 @@ struct Laser {
     std::int64_t on_since = 0, on_time = 0, lost = 0;
     std::int64_t disabled = 0;
 
-    /// Keeps what it has emitted so far.
+    /// Drops pending changes and enables the laser; keeps the present level and the on-time so far.
     void reset();
 };
 
@@ -167,17 +169,17 @@ struct Start {
 struct Starts {
     std::array<Start, start_queue> queue{};
     std::int64_t waiting = 0, triggers = 0, delay = 0, encoder = 0;
-    std::array<Start, start_queue> asked{};  ///< by simulate_ext_start, since the last tick
+    std::array<Start, start_queue> asked{};  ///< requested by simulate_ext_start since the last tick
     std::int64_t asked_count = 0;
     std::int64_t position = 0, has_last = 0;
-    std::array<std::int64_t, encoder_count> last{};  ///< travel at the last start
+    std::array<std::int64_t, encoder_count> last{};  ///< encoder travel at the last start, counts
 };
 
 struct Delays {
     std::int64_t jump = 0, mark = 0, polygon = 0;
     std::int64_t laser_on = 0, laser_off = 0;
     std::int64_t variable_polygon = 0, edge_level = 0, min_jump = 0;
-    double jump_limit = 0;  ///< bits
+    double jump_limit = 0;  ///< bits; a shorter jump has a shorter delay
 };
 
 struct PathSettings {
@@ -187,35 +189,35 @@ struct PathSettings {
 
 struct Lists {
     std::array<std::int64_t, 4> begin{};    ///< start of list 1, 2, 3; end of the memory
-    std::int64_t input = 0, input_end = 0;  ///< position of the next command
+    std::int64_t input = 0, input_end = 0;  ///< input pointer of put(); end of the opened list
     std::int64_t next = 0, running = 0, current = 0, paused = 0, paused_laser = 0;
     std::int64_t auto_change = 0, loop = 0, changed_at = -1, skip = 0, again = 0, marking = 0, moving_alone = 0;
-    std::int64_t ended_unwritten = 0;                          ///< times that a list reached an unwritten position
+    std::int64_t ended_unwritten = 0;                          ///< times that a list reached an empty position
     std::array<std::int64_t, max_depth> returns{};             ///< return positions of calls
     std::int64_t depth = 0, calls = 0, called_at = -1;         ///< calls in the tick called_at
-    std::array<std::int64_t, subroutine_count> subroutines{};  ///< their start positions in list 3; 0: none
+    std::array<std::int64_t, subroutine_count> subroutines{};  ///< start positions in list 3; 0: undefined
     std::int64_t loading = 0, list3_used = 0;                  ///< the subroutine being loaded, from 1; positions used
     std::int64_t loaded = list_status_bit("USED1") | list_status_bit("USED2");  ///< read_status without BUSY
 
     void reset(const Settings& settings);
 };
 
-/// set_wobbel: an ellipse about p while a polyline is marked.
+/// Wobbel motion of set_wobbel: an ellipse about the path while a polyline is marked.
 struct Wobbel {
-    double transversal = 0, longitudinal = 0, turns = 0;  ///< bits; turns a tick
+    double transversal = 0, longitudinal = 0, turns = 0;  ///< amplitudes in bits; revolutions per tick
     std::int64_t step = 0;                                ///< ticks since the start of the polyline
     Point direction{1, 0}, offset;                        ///< values in the last tick
     bool on() const { return turns != 0 && (transversal != 0 || longitudinal != 0); }
 };
 
-/// set_trigger: sample number `count` is next.
+/// Recording of set_trigger; the next sample has the number `count`.
 struct Recording {
     std::int64_t period = 0;  ///< ticks; 0: off
     std::int64_t channels = 0, first = 0, count = 0;
     std::array<std::int64_t, record_channels> signals{};
 };
 
-/// set_mcbsp_out: signals that are sent in turn, one per tick.
+/// Transmission of set_mcbsp_out: signals are sent in turn, one per tick.
 struct Sender {
     std::int64_t count = 0, first = 0;
     std::array<std::int64_t, sent_signals> signals{};
@@ -223,7 +225,7 @@ struct Sender {
 
 struct Head {
     Transform transform;
-    std::int64_t table = 0;  ///< 0: 1:1
+    std::int64_t table = 0;  ///< correction table 1 .. 4; 0: 1:1 (head A), no output (head B)
     Point gain{1, 1}, offset;
 };
 
@@ -235,13 +237,13 @@ struct TransformsState {
 };
 
 struct HeadOutput {
-    std::array<std::int32_t, 2> a{}, b{};  ///< x, y of both heads
+    std::array<std::int32_t, 2> a{}, b{};  ///< x, y of head A and head B, bits
     double z = 0;
-    Point corrected;  ///< after fly
+    Point corrected;  ///< position after the fly correction, before the heads, bits
 };
 
 struct State {
-    std::int64_t tick = 0;      ///< the next tick
+    std::int64_t tick = 0;      ///< number of the next tick
     std::int64_t sampled = -1;  ///< the last tick with sampled inputs
     Point p;
     double z = 0;
@@ -264,7 +266,7 @@ struct State {
     HeadOutput output;
     std::uint64_t memory_hash = 0;  ///< hash of the lists' memory: every command at its position; 0: empty
 
-    /// Keeps the time and what its parts keep.
+    /// Resets everything except the tick numbers and the values that the parts keep.
     void reset(const Settings& settings);
 };
 

@@ -8,7 +8,7 @@ namespace motionrack::rtc5 {
 
 namespace {
 
-/// Values that set_fly_limits and set_fly_limits_z watch, for X, Y, Z.
+/// Marking-info bits of an axis that are set below and above the limits of set_fly_limits or set_fly_limits_z.
 struct LimitBits {
     std::uint32_t below = 0, above = 0;
 };

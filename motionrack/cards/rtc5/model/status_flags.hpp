@@ -1,4 +1,4 @@
-// The marking info, the start and stop info, and the limits of the corrected position that set flags of it.
+// Marking info, start and stop info, and the limits of the corrected position, which set flags of the marking info.
 #pragma once
 
 #include <cstddef>
@@ -13,24 +13,24 @@ class StatusFlags {
     /// Both are parts of the card's state, which must outlive this.
     StatusFlags(FlagsState& flags, FlyLimits& limits) : flags_(flags), limits_(limits) {}
 
-    /// Sets bits of the marking info; keeps the tick of those that were clear.
+    /// Sets bits of the marking info; stores `tick` for those that were clear.
     void raise(std::uint32_t bits, std::int64_t tick);
-    /// Both lines of an encoder changed in this tick.
+    /// Flags that both lines of an encoder changed at one instant.
     void raise_sequence_error(int encoder, std::int64_t tick) {
         raise(encoder == 0 ? marking_bit("ENCODER_X_SEQUENCE") : marking_bit("ENCODER_Y_SEQUENCE"), tick);
     }
     void raise_startstop(std::uint32_t bits) { flags_.startstop_info |= bits; }
-    /// Raises the flags of the corrected positions x and y of a block, from tick `first` on, with this extent.
+    /// Raises the flags for the corrected positions of a block that begins at tick `first`; `extent`: their extent.
     void check(const BlockBuffers& b, const PlanExtent& extent, std::int64_t first);
     void check_z(double z, std::int64_t tick);
     /// True if a position is so far inside the field and its limits that it can set no flag. Axis: 0 X, 1 Y.
     bool is_inside(double bits, std::size_t axis) const;
 
-    /// set_fly_limits, set_fly_limits_z
+    /// Executes set_fly_limits or set_fly_limits_z.
     void set_limits(const Command& c);
-    /// clear_fly_overflow
+    /// Executes clear_fly_overflow: clears the LIMIT bits of X (mode bit 0), Y (bit 1), Z (bit 2); 0: all.
     void clear_limit_flags(std::int64_t mode);
-    /// if_fly_x_overflow and the like: clears the flags that it evaluates.
+    /// Evaluates a condition such as if_fly_x_overflow; returns its result and clears the flags that it evaluates.
     bool take_condition(const Command& c);
     /// Returns the marking info and clears the bits that a reading clears.
     std::uint32_t take_marking_info();

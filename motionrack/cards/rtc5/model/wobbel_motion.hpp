@@ -1,4 +1,4 @@
-// The wobbel: while a polyline is marked, the position circles on an ellipse about the path.
+// Wobbel motion: while a polyline is marked, the position circles on an ellipse about the path.
 //
 //        transversal * sin
 //          ▲    ╭──╮
@@ -18,9 +18,9 @@ class WobbelMotion {
     WobbelMotion(Wobbel& wobbel, const Lists& lists, const Activity& activity)
         : wobbel_(wobbel), lists_(lists), activity_(activity) {}
 
-    /// set_wobbel
+    /// Executes set_wobbel: amplitudes in bits and the frequency of the ellipse.
     void set(const Command& c);
-    /// The position circles in the present tick, after its commands.
+    /// Returns true if the position circles in the present tick; called after the tick's commands.
     bool active() const { return wobbel_.on() && lists_.marking && !lists_.paused; }
     void begin_polyline() {
         wobbel_.step = 0;
@@ -28,9 +28,9 @@ class WobbelMotion {
     }
     /// Adds the ellipse to the positions of n ticks of the activity, from its step `first` on.
     void add(double* x, double* y, std::size_t n, std::int64_t first);
-    /// The last tick is on the path.
+    /// Records that the position of the last tick is on the path.
     void clear_offset() { wobbel_.offset = {}; }
-    /// Distance from the path in the last tick.
+    /// Returns the offset from the path in the last tick, bits.
     Point offset() const { return wobbel_.offset; }
 
   private:

@@ -28,7 +28,7 @@ class Looker final : public Sink {
     bool last = false;
 };
 
-/// Any double: mostly small whole numbers, ends of ranges, any bits.
+/// Returns any double: mostly small whole numbers, ends of ranges, or arbitrary bits.
 double number(Feed& feed) {
     switch (feed.below(8)) {
         case 0:
@@ -124,7 +124,7 @@ void control_something(Feed& feed, Engine* const (&cards)[2]) {
     }
 }
 
-/// A correction file with a few bytes changed, and a text as a compensation table.
+/// Loads a correction file with a few bytes changed, and a text as a 2D compensation table, into both cards.
 void files(Feed& feed, Engine* const (&cards)[2], Verdict& verdict) {
     static const std::vector<std::uint8_t> whole = [] {
         CorrectionFile file = one_to_one();

@@ -4,7 +4,7 @@
 //   outputs are in the field   20 bits, for every request
 //   the gate is 0 .. 20        half-microseconds of a tick, and changes alternate
 //   sampling is free           a card without a sink has the same state as one whose samples are taken
-//   it stays alive             in the end it is reset and jumps to a position
+//   it still works             after a final reset the card jumps to a position
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Verdict {
     std::int64_t commands = 0, refused = 0, ticks = 0, files = 0;
 };
 
-/// A job of `steps` commands and runs on a new card, fewer if the feed is empty or an invariant is violated.
+/// Executes a job of `steps` commands and runs on a new card; fewer if the feed ends or an invariant is violated.
 void run(Feed& feed, std::int64_t steps, Verdict& verdict);
 
 }  // namespace motionrack::rtc5::fuzz

@@ -166,7 +166,7 @@ TEST(Rtc5Card, ARestoredSnapshotContinuesIdenticallyAndRunsDoNotAllocate) {
     EXPECT_GT(first.size(), 1000u);
 }
 
-/// The hash of a card whose positions 0, 1, .. of list 1 have these commands.
+/// Returns the state hash of a card whose list 1 has these commands from position 0 on.
 std::uint64_t hash_of(std::initializer_list<Command> list) {
     sim::Kernel kernel;
     Card card(kernel, "scan", small);

@@ -1,4 +1,4 @@
-// Correction files and their lens.
+// Tests of correction files (.ct5) and of tables made from a lens.
 #include <cmath>
 #include <motionrack/cards/rtc5/test/rig.hpp>
 
@@ -62,7 +62,7 @@ TEST(Rtc5Correction, AFileWrittenIsReadBackTheSame) {
     EXPECT_NEAR(spot.x / 5184, 61.364852, 1e-3);
 }
 
-/// A 1:1 table of 5184 bits/mm, as a file; `program`: origin * 1000 + version.
+/// Makes a 1:1 correction file of 5184 bits/mm; `program`: origin * 1000 + version.
 CorrectionFile plain_file(std::int32_t program = 403) {
     CorrectionFile out = one_to_one();
     out.header[1] = 5184, out.header[10] = program;

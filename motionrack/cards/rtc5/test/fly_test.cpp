@@ -7,7 +7,7 @@ namespace {
 
 constexpr double fly_k = 5184;  // bits/mm
 
-/// Counts that grow at a rate, words from a list.
+/// Inputs with encoder counts that grow at a constant rate, and McBSP words from a list.
 class Belt final : public Inputs {
   public:
     double per_tick = 0;

@@ -55,15 +55,15 @@ struct Act {
 
 struct Job {
     std::vector<Command> list1, list2;
-    std::vector<std::vector<Command>> subroutines;  ///< without their list_return
+    std::vector<std::vector<Command>> subroutines;  ///< commands of each, without list_return
     std::vector<Act> acts;
     bool inputs = false;  ///< counts and words are functions of the tick
-    bool steady = false;  ///< the table of the lens is used
-    double rate[2] = {};  ///< counts per tick
+    bool steady = false;  ///< the correction table of a lens is used
+    double rate[2] = {};  ///< encoder counts per tick
     std::int64_t word_every = 1;
 };
 
-/// What may be left out of a job.
+/// Returns the parts of a job that a shrinking test may leave out.
 inline auto steps_of(Job& job) {
     return std::tie(job.acts, job.list1, job.list2);
 }
@@ -90,7 +90,7 @@ class JobMaker {
     Act act();
 
     std::mt19937_64 random_;
-    bool calm_ = false;  ///< mostly path
+    bool calm_ = false;  ///< mostly path commands, few settings
 };
 
 }  // namespace motionrack::rtc5

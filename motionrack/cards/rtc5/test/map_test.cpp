@@ -1,4 +1,4 @@
-// The map against its page.
+// Compares the map with the page that documents it.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -81,7 +81,7 @@ const FlyTable& fly_table() {
     return table;
 }
 
-/// Both cards side by side.
+/// Runs a job on the card and on its twin and compares them.
 class Pair {
   public:
     Pair(const Job& job, oracle::Comparison& both)
@@ -91,7 +91,7 @@ class Pair {
         if (job.inputs) card_.set_inputs(&inputs_);
     }
 
-    /// Stops at the first act after which they differ.
+    /// Runs the job's acts; stops at the first one after which card and twin differ.
     void run() {
         for (std::size_t i = 0; i < job_.acts.size() && both_.equal(); ++i) {
             act(job_.acts[i]);
@@ -262,7 +262,7 @@ class Pair {
         }
     }
 
-    /// The commands around the twin's present one.
+    /// Lists the commands around the twin's present position.
     std::string where() const {
         std::string out = "\n";
         for (std::int64_t i = std::max<std::int64_t>(0, twin_.current - 6); i < std::min(memory, twin_.current + 3);

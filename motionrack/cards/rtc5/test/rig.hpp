@@ -27,7 +27,7 @@ struct Rig final : Sink {
         const auto done = card.put(*made);
         ASSERT_TRUE(done) << done.error().message;
     }
-    /// Ends the loaded list, runs it, and returns its ticks.
+    /// Ends the loaded list, runs it, and returns the number of ticks that it took.
     std::int64_t go(std::int64_t ticks = 1'000'000) {
         put(Op::set_end_of_list);
         EXPECT_TRUE(card.execute_list(1));

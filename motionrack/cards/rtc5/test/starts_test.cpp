@@ -6,7 +6,7 @@
 namespace motionrack::rtc5 {
 namespace {
 
-/// Counts that are constant, and jump to another value at some ticks.
+/// Inputs whose encoder counts are constant and jump to another value at given ticks.
 class Jumps final : public Inputs {
   public:
     struct Jump {
@@ -41,7 +41,7 @@ struct Station {
         rig.put(Op::long_delay, {10'000});
         rig.put(Op::set_end_of_list);
     }
-    /// The tick in which the list begins; -1: not within `ticks`.
+    /// Returns the tick in which the list begins; -1: not within `ticks`.
     std::int64_t begins_within(std::int64_t ticks) {
         Beginning heard;
         rig.card.set_listener(&heard);

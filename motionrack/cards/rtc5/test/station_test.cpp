@@ -1,4 +1,4 @@
-// The card and the machine around it: the marks on the part.
+// Tests of the card in a marking machine: deviation of the marks on the part.
 #include <cmath>
 #include <motionrack/cards/rtc5/test/rig.hpp>
 #include <motionrack/sim/parts/marking_station.hpp>
@@ -24,7 +24,7 @@ class Machine final : public Sink, public Inputs {
         return sender.has_value();
     }
     void put(Op op, std::initializer_list<double> p = {}) { ASSERT_TRUE(card.put(*list_command(op, p))); }
-    /// A 10 mm square at 500 mm/s, with `before` in front.
+    /// Marks a 10 mm square at 500 mm/s after the commands `before`; returns its deviation.
     parts::Deviation square(std::initializer_list<Command> before) {
         for (const Command& c : before) EXPECT_TRUE(card.put(c));
         put(Op::set_mark_speed, {500 * station_k / 1000});

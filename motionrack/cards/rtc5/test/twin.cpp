@@ -58,7 +58,7 @@ Sample Twin::tick() {
     return out;
 }
 
-/// Clipped to the field, and corrected by the head's table.
+/// Clips `r` to the field and corrects it by the head's table.
 Xy Twin::through_table(int h, Xy r) const {
     const Xy v{std::clamp(r.x, -524288.0, 524287.0), std::clamp(r.y, -524288.0, 524287.0)};
     if (tables[h] == nullptr) return v;

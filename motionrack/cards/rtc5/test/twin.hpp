@@ -37,7 +37,7 @@ struct Matrix {
 struct Sample {
     std::int32_t x = 0, y = 0, x_b = 0, y_b = 0;
     int laser = 0;
-    unsigned outside = 0;  ///< bits 0 to 3 of this very tick
+    unsigned outside = 0;  ///< bits 0 to 3 of the marking info that this tick sets
     bool operator==(const Sample&) const = default;
 };
 

@@ -44,7 +44,7 @@ void Twin::leave() {
     parked = false;
 }
 
-/// Returns true if an empty tick comes first.
+/// Zeroes encoders. Returns true if, with a tracking error, an empty tick comes first.
 bool Twin::zero(std::vector<int> which) {
     if (again) {
         again = false;

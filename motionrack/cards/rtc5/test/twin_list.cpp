@@ -17,7 +17,7 @@ bool any_of(Op op, std::initializer_list<Op> ops) {
 bool marks(Op op) {
     return any_of(op, {Op::mark_abs, Op::mark_rel, Op::timed_mark_abs, Op::timed_mark_rel, Op::arc_abs, Op::arc_rel});
 }
-/// A polyline does.
+/// Returns true if a polyline continues through the command.
 bool goes_through(Op op) {
     return any_of(op, {Op::set_jump_speed, Op::set_mark_speed, Op::set_scanner_delays, Op::set_laser_delays,
                        Op::set_trigger, Op::set_wobbel});

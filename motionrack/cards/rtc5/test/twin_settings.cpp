@@ -152,7 +152,7 @@ void Twin::set_trigger(const Command& c) {
     }
 }
 
-/// q: corrected.
+/// Records the signals of a tick. `q`: position after the fly correction.
 void Twin::record(const Sample& out, Xy q) {
     const auto rounded = [](double v) {
         return static_cast<std::int32_t>(std::nearbyint(std::clamp(v, -2147483648.0, 2147483647.0)));
