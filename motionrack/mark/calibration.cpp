@@ -25,7 +25,7 @@ constexpr const char* no_numbers = "A number is infinite, above 1e12 or missing.
 /// Centre x, y, radius, counts per turn.
 using Circle = std::array<double, 4>;
 
-/// Angle from -pi to pi.
+/// Returns the angle at `centre` from `from` to `to`, -pi to pi, counter-clockwise positive.
 double angle_between(sim::Spot centre, sim::Spot from, sim::Spot to) {
     const double ax = from.x - centre.x, ay = from.y - centre.y, bx = to.x - centre.x, by = to.y - centre.y;
     return atan2(ax * by - ay * bx, ax * bx + ay * by);

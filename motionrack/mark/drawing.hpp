@@ -79,7 +79,7 @@ Drawing transformed(const Drawing& drawing, const Affine& transform, double tole
 inline constexpr double fine_tolerance_mm = 0.0002;  ///< for comparison with marks
 /// Returns the drawing as straight segments, with arcs within the tolerance.
 std::vector<parts::DrawnSegment> segments_of(const Drawing& drawing, double tolerance_mm = fine_tolerance_mm);
-/// Number of these segments.
+/// Returns the number of segments that segments_of() would return.
 std::size_t segment_count(const Drawing& drawing, double tolerance_mm = fine_tolerance_mm);
 
 struct Box {

@@ -66,7 +66,7 @@ class MarkingHost final : rtc5::ListListener {
     rtc5::Engine& card() { return card_; }
     /// Tick of the card at which the belt time is 0.
     std::int64_t begin() const { return begin_; }
-    /// In time order.
+    /// Returns the starts of all parts so far, in time order.
     const std::vector<PartRun>& runs() const { return runs_; }
     /// Returns true if a start came while a list was running.
     bool some_lost() const;

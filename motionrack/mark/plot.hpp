@@ -49,7 +49,7 @@ class Plot {
     double scale_ = 1;  // px per mm
 };
 
-/// "12 mm", "40 µm".
+/// Formats a length in mm for people, as in "12 mm" or "40 µm".
 std::string shown_length(double mm);
 
 }  // namespace motionrack::mark

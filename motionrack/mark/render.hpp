@@ -25,7 +25,7 @@ std::vector<std::string> warnings_of(const MarkingOutcome& outcome);
 
 /// The part as drawn, with correction and without, the field, and the points of maximum deviation enlarged.
 std::vector<trace::ReportPicture> pictures_of(const Prepared& prepared, const MarkingOutcome& outcome);
-/// The same pictures on one sheet, as a standalone SVG file.
+/// Returns the pictures of pictures_of() on one sheet, as a standalone SVG file.
 std::string picture_svg(const Prepared& prepared, const MarkingOutcome& outcome);
 
 /// Data of the page. `text`: that of the job file.

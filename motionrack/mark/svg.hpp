@@ -25,7 +25,7 @@ struct DataError {
 };
 /// Draws path data ("M 0 0 L 10 0 ..."). All commands of SVG 1.1, absolute and relative.
 tl::expected<void, DataError> draw_path(std::string_view data, Pen& pen);
-/// "translate(1 2) rotate(30)" and so on.
+/// Reads a transform attribute, such as "translate(1 2) rotate(30)".
 tl::expected<Affine, DataError> read_transform(std::string_view data);
 
 /// Reads numbers from attribute text.

@@ -39,7 +39,7 @@ class Bus final : public sim::Device {
     const std::string& driver_name(int n) const;
     /// Names of all bus wires: "bus.clk", "bus.addr3" ..
     const std::vector<std::string>& wire_names() const { return wire_names_; }
-    /// Present level of a line.
+    /// Returns the present level of a line, bit by bit.
     std::uint32_t level(Line line) const;
     const Lines& lines() const { return state_.lines; }
     sim::DeviceId id() const { return id_; }
@@ -56,7 +56,7 @@ class Bus final : public sim::Device {
     // ---- for the cards of the bus
     /// Steps state by state from `now` on, at least until the next pulse.
     void interrupt_span(Instant now);
-    /// Does the same if a frame is in progress.
+    /// Calls interrupt_span() if a frame is in progress.
     void leave_frame(Instant now) {
         if (state_.span != 0 && state_.published == 0) interrupt_span(now);
     }

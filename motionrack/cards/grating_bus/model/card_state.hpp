@@ -77,7 +77,7 @@ struct CardState {
     std::uint32_t bad_word = 0;   ///< the present word was counted as bad
     std::uint32_t asks = 0;       ///< a host has pulled READ low and not yet sampled it
     std::uint16_t other = 0;      ///< 1 + the first word of the frame whose scale differs from the card's list
-    std::uint16_t was_other = 0;  ///< the same of the frame published last
+    std::uint16_t was_other = 0;  ///< value of `other` of the frame published last
     TakenAddresses taken;         ///< addresses in the present frame of a slave
     std::uint32_t frames = 0;     ///< number of published frames
     ErrorCountersState errors;

@@ -27,10 +27,10 @@ enum BadFrame : std::uint8_t {
     bad_content = 8  ///< remote frames: wrong CRC or number of scales
 };
 
-/// "card c1: at 0.012 s ...". `card`: its name.
+/// Returns the message of a card's condition, as in "card c1: at 0.012 s ...". `card`: the card's name.
 std::string describe(const sim::Condition& condition, std::string_view card);
 class Bus;
-/// The same for conditions of the bus: "bus: at 0.012 s ...".
+/// Returns the message of a condition of the bus, as in "bus: at 0.012 s ...".
 std::string describe(const sim::Condition& condition, const Bus& bus);
 
 }  // namespace motionrack::grating_bus

@@ -32,7 +32,7 @@ void Decoder::latch(Instant now) {
     for (int n = 0; n < settings_.scales; ++n) state_.latched[static_cast<std::size_t>(n)] = count(n, now);
 }
 
-/// Instant at which the addressed count is output.
+/// Sets the instant at which the addressed count is output; never for an address without a scale.
 void Decoder::ask(Instant now) {
     const Instant from = state_.frozen != 0 ? std::max(state_.asked, state_.valid) : state_.asked;
     state_.output = answers(state_.addr) ? std::max(now, from + settings_.output) : never;

@@ -17,12 +17,12 @@ class FrameAge {
     bool stale() const { return stale_ != 0; }
     /// Instant from which the frame ages.
     Instant held_since() const { return state_.held_since; }
-    /// Instant at which the frame becomes stale; never: it is.
+    /// Returns the instant at which the frame becomes stale; never: it is already stale.
     Instant next() const { return state_.stale_at; }
 
-    /// Waits for the first frame.
+    /// Starts the wait for the first frame: without one, the data is stale after two periods.
     void begin() { state_.stale_at = 2 * settings_.period; }
-    /// A frame was published; it ages from `since`.
+    /// Records that a frame was published; it ages from `since`.
     void renew(std::uint32_t sequence, Instant since) {
         state_.published_sequence = sequence;
         state_.held_since = since;

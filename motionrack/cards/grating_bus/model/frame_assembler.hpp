@@ -25,7 +25,7 @@ class FrameAssembler {
     /// Index of the present word.
     int word() const { return word_; }
     void set_word(int word) { word_ = word; }
-    /// Puts the present word.
+    /// Stores address and count of the present word.
     void put(std::uint32_t address, std::uint32_t count);
     /// Takes the first `words` words from the decoder's latch.
     void put_words(const Latched& latched, int words);

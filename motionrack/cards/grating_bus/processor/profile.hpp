@@ -44,7 +44,7 @@ class SpeedChange {
     /// Position relative to its start, `seconds` (0 .. duration()) after it.
     Setpoint at(double seconds) const;
     double duration() const { return 2 * jerk_s_ + accel_s_; }
-    /// Length of the change.
+    /// Returns the distance travelled during the change, nm.
     double distance() const { return (from_ + to_) / 2 * duration(); }
 
   private:
@@ -55,7 +55,7 @@ class SpeedChange {
     double accel_s_ = 0;  // duration at maximum acceleration
 };
 
-/// Constructs a standstill.
+/// Profile of a standstill at one position.
 struct HoldProfile {
     double place_nm = 0;
     Setpoint at(double) const { return {place_nm, 0, 0}; }

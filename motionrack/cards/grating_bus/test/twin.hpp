@@ -16,7 +16,7 @@
 
 namespace motionrack::grating_bus::twin {
 
-using Ticks = std::int64_t;  ///< of 0.1 ns
+using Ticks = std::int64_t;  ///< time in units of 0.1 ns
 
 /// The bus' lines; addr and data of 7 and 32 bits.
 enum Line { clk, hold, read_n, addr, data, line_count };
@@ -79,7 +79,7 @@ struct Conflict {
     friend bool operator==(const Conflict&, const Conflict&) = default;
 };
 
-/// Each stays at FFFFh except `frames`.
+/// Error counters, which saturate at FFFFh, and the number of published frames, which does not.
 struct Counters {
     std::uint32_t broken = 0, missed_words = 0, alien = 0, lines = 0, missed_edges = 0, overrun = 0, frames = 0;
     friend bool operator==(const Counters&, const Counters&) = default;
