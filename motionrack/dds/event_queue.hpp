@@ -38,7 +38,7 @@ struct BusEvent {
     std::uint64_t total = 0;          ///< total of this kind
 };
 
-/// The event, its consequence and the remedy.
+/// Returns the message of an event: the event, its consequence and the remedy.
 std::string sentence(const BusEvent& event);
 
 /// Stores events until they are read; at most one per second of each kind, so a thousand bad frames give one report.

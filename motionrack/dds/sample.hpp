@@ -24,14 +24,14 @@ struct PublisherIdentity {
     std::uint32_t process = 0;
 
     std::string_view host_name() const;
-    /// "host, process 123, id 0a1b2c3d4e5f6071..." with the complete id.
+    /// Returns "host, process 123, id 0a1b2c3d4e5f6071..." with the complete id.
     std::string text() const;
-    /// The id as 32 hexadecimal digits.
+    /// Returns the id as 32 hexadecimal digits.
     std::string id_text() const;
     friend bool operator==(const PublisherIdentity& a, const PublisherIdentity& b) { return a.id == b.id; }
 };
 
-/// A new source: a random id, this computer's name and this process.
+/// Makes the identity of a new source: a random id, this computer's name and this process.
 PublisherIdentity new_source();
 
 inline constexpr std::uint32_t wire_format = 0x4D524702;  ///< "MRG" and the version of sample.idl

@@ -56,13 +56,13 @@ class Entity {
     dds_entity_t handle_;
 };
 
-/// A participant in a domain; entities created from it end with it. Errors: invalid_input, io.
+/// Creates a participant in a domain; entities created from it end with it. Errors: invalid_input, io.
 Result<Entity> join(const std::string& bus, int domain);
 /// Best effort, keep last 1, volatile, in the bus' partition; `ignore_own`: a reader ignores this participant's
 /// writers.
 using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
 Qos qos_of(const std::string& bus, bool ignore_own);
-/// `code` as an error. `what`: "The frames' topic could not be created".
+/// Makes an error of a DDS return code. `what` begins its message: "The frames' topic could not be created".
 tl::unexpected<Error> engine_error(const char* what, dds_return_t code);
 
 }  // namespace motionrack::dds

@@ -124,7 +124,7 @@ Value with_card(std::string_view who, UINT number, Value otherwise, Call call, b
     });
 }
 
-/// As above for calls without a return value: `call` returns a Result<void>.
+/// Runs `call` with a card, as with_card(), for functions without a return value: `call` returns a Result<void>.
 template <class Call>
 void command(std::string_view who, UINT number, Call call) noexcept {
     with_card(who, number, false, [&](Card& card) -> Result<bool> {
@@ -169,7 +169,8 @@ void call(std::string_view who, UINT number, Answer (Part::*member)(Declared...)
     });
 }
 
-/// As above for a query: time advances first and the cards keep running. `call` returns a Result<Value>.
+/// Runs a query `call` with a card, as with_card(): time advances first by `question_ticks`. `call` returns a
+/// Result<Value>.
 template <class Value, class Call>
 Value question(std::string_view who, UINT number, Value otherwise, Call call) noexcept {
     return with_card(who, number, otherwise, call, true);
