@@ -5,7 +5,7 @@
 
 namespace motionrack::dds {
 
-/// Time since an instant before the program started; the same in all processes of a computer.
+/// Returns the time since an instant before the program started; the same in all processes of a computer.
 Instant monotonic_now();
 /// Returns at `when` or later, or earlier on a signal: check the clock.
 void sleep_until(Instant when);

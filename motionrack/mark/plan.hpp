@@ -40,9 +40,9 @@ struct ConveyorTracking {
     double simulated_velocity = 0;  ///< mm/s or degrees/s represented by the simulated encoder
     bool corrects = true;           ///< false: only the correction is omitted
 };
-/// Tracking of a job, with all velocities multiplied by `factor`.
+/// Returns the tracking of a job, with all velocities multiplied by `factor`.
 ConveyorTracking following_of(const MarkingJob& job, double factor = 1);
-/// Card units per mm or degree of movement; 0: none.
+/// Returns the encoder counts or word units per mm or degree of movement; 0: no tracking.
 double counts_per_unit(const MarkingJob& job, const ConveyorTracking& following);
 /// Whole counts of a belt distance, signed.
 double counts_of(const MarkingJob& job, const ConveyorTracking& following, double travel);
@@ -51,7 +51,7 @@ double counts_of(const MarkingJob& job, const ConveyorTracking& following, doubl
 /// not accept a speed, position or scale, or the drawing never enters the field.
 Result<std::vector<rtc5::Command>> list_of(const MarkingJob& job, const Prepared& prepared,
                                            const ConveyorTracking& following, std::size_t marked = 0);
-/// Before the first start: requests an encoder reset at it. Errors: as list_of.
+/// Returns the list that, before the first start, requests an encoder reset at that start. Errors: as list_of.
 Result<std::vector<rtc5::Command>> arming_list_of(const MarkingJob& job, const Prepared& prepared,
                                                   const ConveyorTracking& following);
 

@@ -32,13 +32,13 @@ struct Frame {
     std::span<const std::uint32_t> positions() const { return {counts.data(), words}; }
 };
 
-/// CRC-32 of the content of a frame.
+/// Computes the CRC-32 of the content of a frame.
 std::uint32_t crc_of(const Frame& frame);
 /// True if the CRC matches the content, there are 1 to 128 words, and each address is 0 to 127.
 bool sound(const Frame& frame);
-/// True if the contents are equal, including sequence and time.
+/// Returns true if two frames have equal contents, including sequence and time.
 bool same(const Frame& a, const Frame& b);
-/// The word of the scale with this address; empty if the frame does not contain it.
+/// Returns the count of the scale with this address; empty if the frame does not contain it.
 std::optional<std::uint32_t> word_of(const Frame& frame, std::uint64_t address);
 
 /// Extends `now` to 64 bits: the count nearest to `before` that has these low 32 bits. Correct while a scale moves less

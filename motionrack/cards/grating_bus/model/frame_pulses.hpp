@@ -8,7 +8,7 @@
 
 namespace motionrack::grating_bus {
 
-/// Delay of pulse `n` of a host with this seed, 0 .. max_delay; the same on every machine.
+/// Returns the jitter of pulse `n` of a host with this seed, 0 .. max_delay ticks; the same on every computer.
 std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t max_delay);
 
 class FramePulses {

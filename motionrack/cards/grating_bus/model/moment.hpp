@@ -14,7 +14,7 @@ struct Moment {
     Duration until{};  ///< time from entering S1 to the end of the state; 0 in S0
 };
 
-/// Duration of a state; S0 has no end.
+/// Returns the duration of a state S1 .. S12; S0 has none.
 constexpr Duration time_in(const BusTiming& timing, State state) {
     switch (state) {
         case State::S1:

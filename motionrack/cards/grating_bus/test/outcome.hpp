@@ -14,7 +14,7 @@ struct Outcome {
     std::vector<std::string> looks;       ///< registers and lines after each operation
     std::vector<std::string> conflicts;   ///< the last ones, in order
     std::vector<std::string> reports;     ///< bad frames, missed edges and stale data, card by card
-    std::vector<oracle::Change> changes;  ///< of wires; only while all are watched
+    std::vector<oracle::Change> changes;  ///< changes of wires; only while all are watched
     std::size_t conflict_count = 0;
 };
 

@@ -33,7 +33,7 @@ class ExternalStarts {
     void set_position(std::int64_t position) { starts_.position = position; }
     /// Discards all pending starts.
     void stop();
-    /// Discards what was derived from the previous source of inputs; called when another source is attached.
+    /// Discards values derived from the previous source of inputs; called when another source is attached.
     void forget_inputs() { not_due_.forget(); }
 
     bool waiting() const { return starts_.waiting > 0; }
