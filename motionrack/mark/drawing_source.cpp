@@ -39,7 +39,7 @@ Result<void> check_size(const Drawing& drawing, const std::string& file) {
     return {};
 }
 
-/// One source, transformed into the field.
+/// Returns the drawing of one source, transformed into the field.
 Result<Drawing> source_drawing(const DrawingSource& source, const std::string& file, const Load& load,
                                std::int64_t number) {
     Drawing drawing;

@@ -12,7 +12,7 @@ double seconds(std::int64_t tick) {
     return static_cast<double>(tick) * 1e-5;
 }
 
-/// Belt distance until the part reaches its marking position.
+/// Returns the signed belt distance until the part reaches its marking position.
 double travel_of(const MarkingJob& job, std::size_t part) {
     return job.parts ? job.parts->travel(part) * job.sense() : 0;
 }

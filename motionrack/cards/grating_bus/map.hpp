@@ -205,7 +205,7 @@ consteval std::array<PinName, 2 * max_scales> scale_pin_names() {
     return out;
 }
 inline constexpr std::array<PinName, 2 * max_scales> scale_pins = scale_pin_names();
-/// Pins of each scale.
+/// Pins of the decoder card; a*, b*: lines A and B of each scale n.
 inline constexpr PinInfo decoder_pins[] = {
     {"a*", PinDirection::input, false, "scale n, line A"},
     {"b*", PinDirection::input, false, "scale n, line B"},
@@ -229,7 +229,7 @@ inline constexpr std::uint16_t signature = 0x4742;
 inline constexpr std::uint16_t decoder_signature = 0x4744;
 inline constexpr int output_count = 4;  ///< analog outputs of a motion card
 
-/// Offset of a register by its name; undeclared names do not compile.
+/// Returns the offset of a register by its name; undeclared names do not compile.
 consteval std::uint32_t offset(std::string_view name) {
     return register_named(map::registers, name).offset;
 }
@@ -243,7 +243,7 @@ static_assert(decoder_offset("COUNT_L") == counts_at);
 inline constexpr std::uint32_t addresses_at = offset("ADDRESS");
 /// Offset of the first address of the card's own list.
 inline constexpr std::uint32_t list_at = offset("LIST");
-/// A field of a register: field("STATUS", "STALE").
+/// Returns a field of a register, as in field("STATUS", "STALE").
 consteval Field field(std::string_view reg, std::string_view name) {
     return {mask_of(register_named(map::registers, reg), name)};
 }
@@ -251,7 +251,7 @@ consteval Field field(std::string_view reg, std::string_view name) {
 /// The states of the sequence by their numbers.
 enum class State : std::uint8_t { S0, S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11, S12 };
 
-/// The whole map, for documents, inspectors and traces.
+/// Returns the map of the card (registers, states, pins), for documents, inspectors and traces.
 inline const CardMap& card_map() {
     return map::card;
 }

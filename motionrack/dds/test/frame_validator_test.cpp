@@ -24,7 +24,7 @@ class FrameValidatorTest : public testing::Test {
         for (BusEvent event; judge.next_event(event);) out.push_back(event);
         return out;
     }
-    /// The sentence of the only event of this kind.
+    /// Returns the message of the only event of this kind.
     std::string reported(EventKind kind) {
         std::string out;
         for (const BusEvent& event : events())

@@ -20,7 +20,7 @@ inline void seal(Sample& sample) {
     sample.check = check_of(sample);
 }
 
-/// Frame `number` of a source whose card's time began at 1 ms.
+/// Makes the sample of frame `number` of a source whose card's time began at 1 ms.
 inline Sample sample_of(const PublisherIdentity& source, std::uint32_t number, std::uint32_t words = 6) {
     Sample out;
     out.source = source;

@@ -14,7 +14,7 @@ namespace rtc5 = motionrack::rtc5;
 
 namespace {
 
-/// Return values of the functions that read files.
+/// Return values of the functions that load a file.
 enum FileAnswer : UINT { loaded = 0, damaged = 1, not_read = 3, wrong_parameter = 10, no_such_card = 11 };
 
 constexpr std::size_t max_table_bytes = 64u << 20;

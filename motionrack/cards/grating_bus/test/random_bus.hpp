@@ -19,7 +19,7 @@ struct Op {
     int who = 0;
     std::int64_t a = 0;  ///< off, no_latch: 0 or 1; late, jitter: ticks; miss_edges: number; force: level; look: wires
     Line line = clk;
-    int bit = -1;  ///< of addr or data, or the whole line
+    int bit = -1;  ///< bit of addr or data; -1: the whole line
 };
 
 /// A scale that starts at `start` and moves by `step` counts in each `every` ticks.
@@ -31,7 +31,7 @@ struct Course {
 
 struct Program {
     std::vector<CardSettings> cards;
-    std::vector<std::uint32_t> seeds;  ///< of the cards' jitter
+    std::vector<std::uint32_t> seeds;  ///< seeds of the cards' jitter
     DecoderSettings decoder;
     std::vector<Course> scales;
     std::vector<Op> ops;

@@ -40,7 +40,7 @@ class RecordingListener final : public FrameListener {
     std::vector<Heard> heard;
 };
 
-/// `speeds`: counts/s of each scale.
+/// Returns a constant speed in counts/s for each scale.
 inline std::vector<std::int64_t> speeds(int scales) {
     std::vector<std::int64_t> out;
     for (int n = 0; n < scales; ++n) out.push_back((n % 2 == 0 ? 1 : -1) * (20'000'000 - 1'234'567 * (n % 13)));
@@ -120,7 +120,7 @@ inline CardSettings slave_settings(int scales = 4) {
     out.scales = scales;
     return out;
 }
-/// A host and `slaves` slaves.
+/// Returns the settings of a host and of `slaves` slaves.
 inline std::vector<CardSettings> crew(int slaves, int scales = 4) {
     std::vector<CardSettings> out{host_settings(scales)};
     out.insert(out.end(), static_cast<std::size_t>(slaves), slave_settings(scales));
