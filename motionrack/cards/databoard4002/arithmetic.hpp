@@ -10,7 +10,7 @@ namespace motionrack::databoard4002 {
 
 // ---- Positions
 
-/// The lowest 24 bits as two's complement, -8,388,608 .. 8,388,607.
+/// Returns the lowest 24 bits of `x` as a number in two's complement, -8,388,608 .. 8,388,607.
 constexpr std::int64_t signed24(std::int64_t x) {
     return ((x + 0x80'0000) & 0xFF'FFFF) - 0x80'0000;
 }
@@ -23,11 +23,11 @@ inline constexpr std::int64_t clock_hz = 400'000;
 inline constexpr int max_rate = 0x3FFF;
 inline constexpr int rate_mask = max_rate;
 
-/// The divider of the 400 kHz clock (rate 0 .. 16383).
+/// Returns the number by which the card divides its 400 kHz clock at a rate of 0 .. 16383.
 constexpr std::int64_t divisor_of(int rate) {
     return 16'384 - rate;
 }
-/// FOUT in Hz; rate 0 is a standstill.
+/// Returns the frequency of the output FOUT at a rate of 0 .. 16383, Hz; 0 at rate 0 (standstill).
 constexpr double hz_of(int rate) {
     return rate == 0 ? 0.0 : static_cast<double>(clock_hz) / static_cast<double>(divisor_of(rate));
 }
@@ -58,7 +58,8 @@ inline constexpr Trim default_trim = {
       {9'500'000, 16'341}, {10'000'000, 16'345}}},
     32};
 
-/// 1 to 64 rows, 1 uV .. 10 V, rates 1 .. 16383, both ascending from row to row.
+/// Returns true if the table has 1 to 64 rows, and if voltages (1 uV .. 10 V) and rates (1 .. 16383) ascend from row to
+/// row.
 constexpr bool sound(const Trim& trim) {
     if (trim.size < 1 || trim.size > static_cast<int>(trim.rows.size())) return false;
     TrimRow before{0, 0};
@@ -72,8 +73,8 @@ constexpr bool sound(const Trim& trim) {
 }
 static_assert(sound(default_trim));
 
-/// Voltage of the converter in uV at a rate 0 .. 16383: linear in the frequency between rows and below the first,
-/// constant above the last. Halves are rounded up.
+/// Returns the voltage of the converter at a rate of 0 .. 16383, uV: linear in the frequency between rows and below the
+/// first, constant above the last. Halves are rounded up.
 constexpr std::int32_t microvolts_of(int rate, const Trim& trim) {
     if (rate <= 0) return 0;
     const std::int64_t n = divisor_of(rate);

@@ -8,7 +8,7 @@
 
 namespace motionrack::databoard4002 {
 
-/// Number of a port by its name; undeclared names do not compile.
+/// Returns the number of the port with this name; an undeclared name does not compile.
 consteval std::uint8_t port(std::string_view name) {
     return static_cast<std::uint8_t>(register_named(map::registers, name).offset);
 }
@@ -19,12 +19,12 @@ inline constexpr std::uint8_t C4 = port("C4"), STAT = port("STAT"), RST = port("
 static_assert(port("INP") == DATA);
 }  // namespace ports
 
-/// A command's byte by its name.
+/// Returns the byte of the command with this name; an undeclared name does not compile.
 consteval std::uint8_t command(std::string_view name) {
     return static_cast<std::uint8_t>(command_named(map::commands, name).code);
 }
 
-/// A bit of a word: bit("STAT", "READY").
+/// Returns the mask of one bit of a port or word: bit("STAT", "READY") is 80h.
 consteval std::uint8_t bit(std::string_view word, std::string_view name) {
     return static_cast<std::uint8_t>(mask_of(register_named(map::registers, word), name));
 }
@@ -35,7 +35,7 @@ inline constexpr std::uint8_t REF = bit("STAT", "REF"), EMS = bit("STAT", "EMS")
 inline constexpr std::uint8_t ESL = bit("STAT", "ESL"), READY = bit("STAT", "READY");
 }  // namespace stat
 
-/// Bits that mean the same in the EVENT word and in C4.
+/// Bits of the EVENT word and of the event enables (C4); an event of `maskable` has the same bit in both.
 namespace event {
 inline constexpr std::uint8_t POSITION = bit("EVENT", "POSITION"), ZERO = bit("EVENT", "ZERO");
 inline constexpr std::uint8_t REF = bit("EVENT", "REF"), STOP = bit("EVENT", "STOP");

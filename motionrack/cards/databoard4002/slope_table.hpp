@@ -15,14 +15,15 @@
 
 namespace motionrack::databoard4002 {
 
-/// An interval: up to `position` counts (0 .. 16,777,215) at `rate` (0 .. 16383).
+/// An interval of a ramp: up to `position` counts (0 .. 16,777,215), the card drives at `rate` (0 .. 16383).
 struct SlopeEntry {
     int rate = 0;
     std::int64_t position = 0;
     friend bool operator==(const SlopeEntry&, const SlopeEntry&) = default;
 };
 
-/// Flaws of a table; the card accepts it anyway.
+/// Flaw of a table, which the card accepts anyway: a rate of 0, positions that descend within a ramp, or a position
+/// beyond the longest move.
 enum class SlopeFlaw : std::uint8_t { none, speed_zero, descending, too_far };
 
 class SlopeTable {
@@ -43,7 +44,7 @@ class SlopeTable {
     constexpr std::uint8_t byte(int i) const { return bytes_[static_cast<std::size_t>(i)]; }
     constexpr void set_byte(int i, std::uint8_t value) { bytes_[static_cast<std::size_t>(i)] = value; }
 
-    /// A rate and the distances over which it holds: min <= distance <= max.
+    /// A rate and the distances over which it holds, counts: min <= distance <= max.
     struct Step {
         int rate = 0;
         std::int64_t min = 0;
@@ -51,11 +52,11 @@ class SlopeTable {
     };
     static constexpr std::int64_t no_end = std::int64_t{1} << 40;
 
-    /// The acceleration's interval at `travelled` counts (>= 0) from the start.
+    /// Returns the step of the acceleration at `travelled` counts (>= 0) from the start of a move.
     constexpr Step accelerating(std::int64_t travelled) const { return find(half, travelled, 0); }
-    /// The deceleration's interval at `to_go` counts (> 0) from the target.
+    /// Returns the step of the deceleration at `to_go` counts (> 0) from the target.
     constexpr Step decelerating(std::int64_t to_go) const { return find(0, to_go, 1); }
-    /// The first flaw and its interval.
+    /// Returns the first flaw and sets `interval` to its interval, 0 .. 47.
     constexpr SlopeFlaw flaw(int& interval) const {
         for (interval = 0; interval < entries; ++interval) {
             const SlopeEntry here = entry(interval);
@@ -68,7 +69,8 @@ class SlopeTable {
     friend bool operator==(const SlopeTable&, const SlopeTable&) = default;
 
   private:
-    /// The first of 24 entries with distance < position + reach: it holds up to position - 1 + reach.
+    /// Finds the first of the 24 entries from `first` on with distance < position + reach, whose rate holds up to
+    /// position + reach - 1. If none has, returns the rate of entry 47.
     constexpr Step find(int first, std::int64_t distance, std::int64_t reach) const {
         std::int64_t min_distance = 0;
         for (int i = first; i < first + half; ++i) {

@@ -94,7 +94,7 @@ void HomeSearch::finish(State state, std::string sentence, Instant now) {
 
 // ---- entering a state
 
-/// Events that set the counter to 0 in the present state.
+/// Returns the events that set the counter to 0 in the present state.
 std::uint8_t HomeSearch::marks() const {
     if (!marking()) return 0;
     const bool index = order_.method == control::HomingMethod::index_after_switch ||
@@ -146,7 +146,8 @@ void HomeSearch::step(Instant now) {
     if (const Result<void> looked = poll(now); !looked) fail_with(looked.error(), now);
 }
 
-/// Distance since the last poll; if the counter was set to 0 in between, estimated from the previous velocity.
+/// Adds the distance since the last poll; if the counter was set to 0 in between, estimates it from the previous
+/// velocity.
 Result<void> HomeSearch::count(Instant now) {
     MOTIONRACK_TRY(const std::int64_t counts, driver_.position());
     // The counter may have become 0 just now, perhaps after it was read: the next poll decides.
@@ -194,7 +195,7 @@ Result<void> HomeSearch::look_at_events(Instant now) {
     return driver_.status().reference() && !driver_.status().event() ? enter(State::back, now) : Result<void>{};
 }
 
-/// Called when the contacts of a stop have settled: does the stop block the axis?
+/// Ends or reverses the search if a stop blocks the axis; called when the contacts of the stop have settled.
 Result<void> HomeSearch::look_at_stop(Instant now) {
     stop_seen_ = never;
     const StatusByte status = driver_.status();

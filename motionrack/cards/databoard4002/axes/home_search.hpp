@@ -23,10 +23,10 @@ struct HomeFrame {
     std::string name;
     std::string_view unit;
     double counts_per_unit = 100;
-    int speed_rate = 1;       ///< search speed
-    int slow_rate = 1;        ///< speed of the second approach
+    int speed_rate = 1;       ///< the card's rate for the search
+    int slow_rate = 1;        ///< the card's rate for the second approach
     std::int64_t travel = 0;  ///< counts: the longest distance travelled in one state
-    double offset = 0;        ///< value of the counter's 0 before homing
+    double offset = 0;        ///< position of the counter's 0 before homing, in `unit`
     Duration settle{};        ///< the axis is at standstill after this time without a count
 };
 

@@ -253,13 +253,13 @@ void PositionAxis::ramp_down(Instant now) {
     if (rate == 0) rest(now);
 }
 
-/// Sets the output to 0; the motor stops.
+/// Waits until the motor, whose output is 0, has stopped.
 void PositionAxis::rest(Instant now) {
     doing_ = Doing::settling;
     still_since_ = now;
 }
 
-/// `counted`: the card answers and counts, so the position stays valid.
+/// Ends the motion with an error. `counted`: the card answers and counts, so the position stays valid.
 void PositionAxis::end_with(Error error, bool counted) {
     error_ = std::move(error);
     position_valid_ = position_valid_ && counted;

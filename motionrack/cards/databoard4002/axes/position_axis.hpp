@@ -26,7 +26,7 @@ struct PositionAxisSettings {
         limits;  ///< max_accel applies to both ramps, max_velocity_step is the creep velocity at their ends
     double counts_per_unit = 100;           ///< scale of the card's counter, > 0
     SpeedScale scale;                       ///< counts/s at a rate
-    double lag_s = 0;                       ///< the motor's time constant, with its load
+    double lag_s = 0;                       ///< s, >= 0: time constant of the motor with its load
     std::optional<double> position_window;  ///< mm or degrees: in-position window of the card's position lock after a
                                             ///< move; absent: no lock
     Duration settle = milliseconds(20);     ///< the axis is at standstill after this time without a count
@@ -56,7 +56,7 @@ class PositionAxis final : public control::Axis {
     bool position_valid() const override { return position_valid_; }
     double position() override;
     double measured_position() override { return position(); }
-    /// The position where the card's counter is 0.
+    /// Returns the position at which the card's counter is 0, mm or degrees.
     double counter_origin() const { return offset_; }
     std::string_view home_state() const override { return search_.state_name(); }
     control::HomingResult home_outcome() const override { return search_.outcome(); }

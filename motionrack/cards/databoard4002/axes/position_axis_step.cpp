@@ -31,7 +31,8 @@ void PositionAxis::look_at_events(Instant now) {
         rest(now);
 }
 
-/// Called when the contacts of a stop have settled: does the stop block the axis? A stop on the other side does not.
+/// Ends the motion if a stop blocks the axis; called when the contacts of the stop have settled. A stop on the other
+/// side is ignored.
 void PositionAxis::look_at_stop() {
     stop_seen_ = never;
     const StatusByte status = driver_.status();

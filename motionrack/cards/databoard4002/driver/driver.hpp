@@ -22,7 +22,7 @@ struct DriverSettings {
     Duration ready_timeout = milliseconds(127);  ///< > 0: maximum wait for Ready before an access; `never`: no limit
     Duration poll = microseconds(20);            ///< > 0: interval between two reads of STAT
     Duration bounce = contacts_rest;             ///< >= 0: settling time of a stop's contacts after an edge
-    double counts_per_mm = 1000;                 ///< > 0; for positions in mm
+    double counts_per_mm = 1000;                 ///< > 0: scale of positions in mm
 };
 
 /// STAT, decoded.
@@ -33,12 +33,12 @@ struct StatusByte {
     bool interrupt() const { return (word & stat::INT) != 0; }
     bool end_stop_left() const { return (word & stat::ESL) != 0; }
     bool end_stop_right() const { return (word & stat::ESR) != 0; }
-    /// The end stop in that direction.
+    /// Returns true if the end stop in that direction is active.
     bool end_stop(bool forward) const { return forward ? end_stop_right() : end_stop_left(); }
     bool emergency() const { return (word & stat::EMS) != 0; }
     bool reference() const { return (word & stat::REF) != 0; }
     bool zero() const { return (word & stat::ZERO) != 0; }
-    /// "the right end stop is active"; empty if no stop is.
+    /// Names the active stops for a message: "the right end stop is active"; empty if none is.
     std::string stops() const;
 };
 
@@ -61,31 +61,31 @@ class Driver {
     /// Connects to the card, clears the reset mark and reads the version. Errors: machine if no card answers or it
     /// never becomes Ready.
     Result<int> connect();
-    /// C3: hardware reset; clears position, rate and table.
+    /// Resets the card (C3), which clears its position, rate and slope table.
     void reset();
     StatusByte status();
 
     // ---- commands, one each; counts and rates in the card's units. Common errors: refused (out of range, nothing was
     // written), machine (not Ready in time)
-    Result<void> athome();                            ///< A
-    Result<void> set_deviation(std::int64_t counts);  ///< D out, 0 .. 8,388,607
-    Result<std::int64_t> deviation();                 ///< D in: present minus requested
-    Result<void> go();                                ///< G
-    Result<void> initialise();                        ///< I
-    Result<void> lock();                              ///< L
-    Result<void> manual();                            ///< M
-    Result<void> set_number(std::int64_t counts);     ///< N, -8,388,608 .. 8,388,607
-    Result<void> on_regulation();                     ///< O
-    Result<void> set_target(std::int64_t counts);     ///< P out, -8,388,608 .. 8,388,607
-    Result<std::int64_t> position();                  ///< P in
-    Result<void> quit();                              ///< Q
-    /// The last quit() did not reach the card, which may drive on.
+    Result<void> athome();                            ///< A: sets the present position to 0
+    Result<void> set_deviation(std::int64_t counts);  ///< D: sets the deviation that lock allows, 0 .. 8,388,607
+    Result<std::int64_t> deviation();                 ///< D: reads the present minus the requested position
+    Result<void> go();                                ///< G: starts the move and switches lock off
+    Result<void> initialise();                        ///< I: has no effect; the maker's programs send it
+    Result<void> lock();                              ///< L: goes back whenever the deviation exceeds that of D
+    Result<void> manual();                            ///< M: switches slope mode and lock off
+    Result<void> set_number(std::int64_t counts);     ///< N: sets the length of the move, -8,388,608 .. 8,388,607
+    Result<void> on_regulation();                     ///< O: switches slope mode on, sets Rate to its maximum
+    Result<void> set_target(std::int64_t counts);     ///< P: sets the target of the move, -8,388,608 .. 8,388,607
+    Result<std::int64_t> position();                  ///< P: reads the counter
+    Result<void> quit();                              ///< Q: stops the motor; Rate stays
+    /// Returns true if the last quit() did not reach the card, which may drive on.
     bool quit_due() const { return quit_due_; }
-    Result<void> set_rate(int rate);                  ///< R out, 0 .. 16383; 0 switches the relay off
-    Result<int> rate();                               ///< R in, negative backwards, 0 at standstill
-    Result<void> set_slope(const SlopeTable& table);  ///< S
-    Result<int> version();                            ///< V
-    Result<void> clear_watch_out();                   ///< W
+    Result<void> set_rate(int rate);                  ///< R: sets Rate, 0 .. 16383; 0 switches the relay off
+    Result<int> rate();                               ///< R: reads the rate, negative backwards, 0 at standstill
+    Result<void> set_slope(const SlopeTable& table);  ///< S: writes the slope table
+    Result<int> version();                            ///< V: reads the version of the card's program
+    Result<void> clear_watch_out();                   ///< W: clears the reset mark in EVENT
 
     // ---- events
     /// Writes the enables (bits of C4) and returns the EVENT word that this releases.
@@ -94,23 +94,23 @@ class Driver {
     bool met_reset() const { return met_reset_; }
     /// Waits until one of the `wanted` events (01h, 02h, 04h, 20h) has occurred and returns the word; restores the
     /// enables. Errors: machine after `timeout` or if the card was reset meanwhile; stopped if the user requested a
-    /// stop. stop.
+    /// stop.
     Result<Events> wait_event(std::uint8_t wanted, Duration timeout, Waiting how = Waiting::polling);
 
     // ---- complete moves; a `timeout` of `never` waits without limit, also in wait_event
-    /// Moves to `counts` with the present rate, mode and table. A stop on the other side (while leaving it) is ignored.
-    /// Errors: machine if a stop blocks the move, the card is reset or `timeout` passes (Q then ends the move);
+    /// Moves to `counts` with the present rate, mode and table. Ignores an active stop on the side that the axis
+    /// leaves. Errors: machine if a stop blocks the move, the card is reset or `timeout` passes (Q then ends the move);
     /// stopped.
     Result<void> move_to(std::int64_t counts, Duration timeout, Waiting how = Waiting::polling);
     Result<void> move_by(std::int64_t counts, Duration timeout, Waiting how = Waiting::polling);
     Result<void> move_to_mm(double mm, Duration timeout, Waiting how = Waiting::polling);
     Result<double> position_mm();
-    /// Moves slowly (`rate`) towards `far` until reference, zero pulse or both (`marks`: 02h, 04h, 06h) set the counter
-    /// to 0; then stops.
+    /// Moves at `rate` towards `far` (counts) until the zero pulse (`marks` 02h), the reference (04h) or both at once
+    /// (06h) set the counter to 0; then stops.
     Result<void> find_zero(std::uint8_t marks, std::int64_t far, int rate, Duration timeout,
                            Waiting how = Waiting::polling);
 
-    /// Errors: refused if the value is not finite or is beyond the card's counts.
+    /// Converts mm to counts. Errors: refused if the value is not finite or is beyond the card's counts.
     Result<std::int64_t> to_counts(double mm) const;
     double to_mm(std::int64_t counts) const { return static_cast<double>(counts) / settings_.counts_per_mm; }
 

@@ -56,8 +56,8 @@ Result<void> sound(const SlopeDemand& d, const SpeedScale& scale) {
     return {};
 }
 
-/// One half of the table, slowest interval first. Each interval lasts as long as its velocity step takes. A motor with
-/// the time constant `lag` gets every step that much earlier.
+/// Computes one half of the table, slowest interval first. Each interval lasts as long as its velocity step takes. A
+/// motor with the time constant `lag` gets every step that much earlier.
 Result<void> fill_half(SlopeTable& table, int first, const SlopeDemand& d, double ramp, double lag,
                        const SpeedScale& scale) {
     const double creep = d.creep_speed > 0 ? d.creep_speed : d.top_speed / SlopeTable::half;

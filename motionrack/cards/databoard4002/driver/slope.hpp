@@ -16,16 +16,16 @@
 
 namespace motionrack::databoard4002 {
 
-/// Speed of the machine at a rate: counts for a pulse of FOUT, or counts/s for a volt.
+/// Scale from the card's rate to the speed of the machine: counts per pulse of FOUT, or counts/s per volt.
 struct SpeedScale {
     bool analog = false;
     double counts_per_pulse = 1;  ///< > 0 if the motor follows FOUT
-    double counts_per_volt = 0;   ///< > 0, counts/s, if the motor follows the voltage
+    double counts_per_volt = 0;   ///< counts/s per volt, > 0, if the motor follows the voltage
     Trim trim = default_trim;
 
-    /// Counts/s at a rate 0 .. 16383.
+    /// Returns the speed at a rate of 0 .. 16383, counts/s.
     double speed(int rate) const;
-    /// The highest rate whose speed does not exceed the value; 0 if rate 1 is already faster.
+    /// Returns the highest rate whose speed does not exceed `counts_s`; 0 if rate 1 is already faster.
     int rate_for(double counts_s) const;
 };
 
@@ -45,7 +45,7 @@ struct SlopeDemand {
 /// 8,388,607 counts.
 Result<SlopeTable> design_slope(const SlopeDemand& demand, const SpeedScale& scale);
 
-/// A leg at one rate.
+/// A part of a move at one rate.
 struct SlopeLeg {
     int rate = 0;
     double speed = 0;       ///< counts/s
@@ -61,15 +61,15 @@ struct SlopeMotion {
     double top_speed = 0;           ///< counts/s
     std::int64_t distance = 0;      ///< counts
     std::int64_t accelerating = 0;  ///< counts up to the first leg at the top speed
-    std::int64_t decelerating = 0;  ///< counts after the last one
+    std::int64_t decelerating = 0;  ///< counts after the last leg at the top speed
 };
 
-/// The motion of the card with this table for a move of `distance` counts (0 .. 8,388,607) with Rate at `rate_limit`,
-/// if the motor follows without delay. Errors: refused if an interval on the way has the speed 0, so the move would
-/// never end.
+/// Computes the motion of the card with this table for a move of `distance` counts (0 .. 8,388,607) with Rate at
+/// `rate_limit`, if the motor follows without delay. Errors: refused if an interval on the way has the speed 0, so the
+/// move would never end.
 Result<SlopeMotion> motion_of(const SlopeTable& table, std::int64_t distance, int rate_limit, const SpeedScale& scale);
 
-/// The motion as polylines: two points for each leg. Positions are counts travelled.
+/// A motion as polylines with two points for each leg: s, counts/s, counts travelled.
 struct SlopeSeries {
     std::vector<double> seconds;
     std::vector<float> speed;

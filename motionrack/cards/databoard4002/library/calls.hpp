@@ -1,4 +1,5 @@
-// Rows of the declaration with their calls, which pass the arguments in order to the Driver.
+// Rows of the function library: a function's declaration, and the call that passes its arguments in order to the
+// Driver.
 #pragma once
 
 #include <motionrack/cards/databoard4002/library/library.hpp>
@@ -15,19 +16,19 @@ struct LibraryRow {
 };
 std::span<const LibraryRow> function_rows();
 
-/// A command without an argument.
+/// Sends a command without an argument.
 template <Result<void> (Driver::*function)()>
 Result<CallAnswer> give(Driver& driver, Values) {
     MOTIONRACK_CHECK((driver.*function)());
     return CallAnswer{{}, "Given."};
 }
-/// A command with its number.
+/// Sends a command with one number, `v[0]`.
 template <class Number, Result<void> (Driver::*function)(Number)>
 Result<CallAnswer> set(Driver& driver, Values v) {
     MOTIONRACK_CHECK((driver.*function)(static_cast<Number>(v[0])));
     return CallAnswer{{}, "Written."};
 }
-/// A command with an answer.
+/// Sends a command and returns the card's answer.
 template <class Number, Result<Number> (Driver::*function)()>
 Result<CallAnswer> ask(Driver& driver, Values) {
     MOTIONRACK_TRY(const Number value, (driver.*function)());

@@ -119,7 +119,7 @@ Result<CallAnswer> design(Driver& driver, Values v) {
                                   v[0])};
 }
 
-/// A function that is a command of the card; its name is the Driver's.
+/// Makes the row of a function that is one command of the card; `name`: the Driver's function.
 LibraryRow row_of(std::string_view name, const CommandInfo& command, Call call,
                   std::span<const ArgumentInfo> arguments = {}, std::string_view returns = {}) {
     static std::deque<std::string> meanings;  // where a string stays in its place

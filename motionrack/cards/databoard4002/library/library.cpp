@@ -9,7 +9,8 @@ namespace motionrack::databoard4002 {
 
 namespace {
 
-/// Longer than an access of the card takes, and short enough for a stop that has to be written again.
+/// Maximum wait for Ready: longer than an access of the card takes, short enough for a stop that has to be written
+/// again.
 constexpr Duration library_ready_timeout = milliseconds(20);
 constexpr Duration max_start = whole_seconds(1);  // of the card's program after a reset
 constexpr std::uint8_t no_card = 0xFF;

@@ -1,4 +1,4 @@
-// The function library by its declaration: commands by name with numbers as arguments, for pages and scripts.
+// The card's function library for pages and scripts: functions called by name, with whole numbers as arguments.
 #pragma once
 
 #include <motionrack/base/function_library.hpp>
@@ -7,11 +7,12 @@
 
 namespace motionrack::databoard4002 {
 
-/// The card's commands, one each, then status and events, complete moves and the slope.
+/// Returns the library's functions: one for each command of the card, then status and events, complete moves and the
+/// slope table.
 std::span<const FunctionInfo> library_functions();
 
-/// Card access of a driver that a stop ends: it may still end its move with Q, free events and read; no argument and no
-/// other command is written.
+/// Port of a driver during a stop: once a stop is requested, passes only Q, the commands that read (D, P, R, V), event
+/// enables and reads; drops arguments and all other commands.
 class GuardedBytePort final : public BytePort {
   public:
     GuardedBytePort(BytePort& port, const Interrupt& host) : port_(port), host_(host) {}
@@ -44,7 +45,7 @@ class CommandLibrary final : public FunctionLibrary {
     GuardedBytePort guarded_;
     Interrupt& host_;
     Driver driver_;
-    Driver stopper_;  ///< not guarded
+    Driver stopper_;  ///< on the unguarded port, for moving() and stop_now()
 };
 
 }  // namespace motionrack::databoard4002

@@ -23,7 +23,7 @@ class Bus final : public sim::Device, public sim::ByteDevice {
     /// Puts a card on the bus under a unique number; before the kernel starts.
     void plug(Card& card, std::uint8_t select);
 
-    /// An unanswered read returns FFh.
+    /// Reads a port of the selected card; returns FFh if no card answers.
     std::uint8_t in(std::uint8_t port) override;
     void out(std::uint8_t port, std::uint8_t value) override;
     std::uint8_t peek(std::uint8_t port) const override;
@@ -39,7 +39,7 @@ class Bus final : public sim::Device, public sim::ByteDevice {
     struct AddressSlot {
         Card* card = nullptr;
         std::uint8_t select = 0;
-        sim::WireId csb{};  ///< chip select of the card
+        sim::WireId csb{};  ///< the card's wire csb: 1 while the card is selected
     };
     struct State {
         std::int32_t chosen = -1;  ///< the number written to port 1; -1: none yet

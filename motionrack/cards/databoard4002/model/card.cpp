@@ -34,7 +34,7 @@ void Card::reschedule() {
     kernel_.schedule(id_, next);
 }
 
-/// State of the inputs at power-up.
+/// Reads the inputs at power-up.
 void Card::begin() {
     if (state_.begun) return;
     const Instant now = kernel_.now();
@@ -124,7 +124,7 @@ void Card::pass(Instant now) {
     positioner_.aim(now);
 }
 
-/// Reset by power-up, C3, INP 7 or the watchdog.
+/// Resets the card: at power-up, by C3, INP 7 or the watchdog.
 void Card::reset() {
     const Instant now = kernel_.now();
     state_.firmware = Firmware{};

@@ -51,15 +51,15 @@ class Card final : public sim::DeferringDevice,
     // ---- the machine side
     /// FOUT as a position over time: pulses since power-up, signed by SIGN.
     sim::PositionFunction& pulses() { return outputs_.train(); }
-    /// The source that turns the encoder at O1 and O2, in counts of all edges (method 1: in counts); before the kernel
-    /// starts. Without a source the card counts the wires o1 and o2.
+    /// Connects the source that turns the encoder at O1 and O2, in counts of all edges (method 1: in counts); before
+    /// the kernel starts. Without a source the card counts the wires o1 and o2.
     void connect_encoder(sim::PositionFunction& counts);
     /// Disconnects the source and forces the wires o1 and o2 to its present levels (`taken`), or releases them and
     /// reconnects it. While disconnected, the card counts the forced levels.
     void take_encoder(bool taken);
 
     // ---- inspection
-    /// The counter, -8,388,608 .. 8,388,607.
+    /// Returns the counter, -8,388,608 .. 8,388,607.
     std::int32_t position() const { return static_cast<std::int32_t>(signed24(counter_.value(kernel_.now()))); }
     bool moving() const { return positioner_.moving(); }
     bool locked() const { return positioner_.locked(); }
@@ -80,8 +80,8 @@ class Card final : public sim::DeferringDevice,
     void wanted_changed(int pin, bool wanted, Instant now) override;
     void sync(Instant now) override { outputs_.sync(now); }
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
-    /// watchdog.hang; esl.broken, esr.broken, ems.broken, ref.broken: while not 0, the input's wire is broken, so the
-    /// input is active.
+    /// Sets or clears a fault: watchdog.hang (the firmware hangs); esl.broken, esr.broken, ems.broken, ref.broken (the
+    /// input's wire is broken, so the input is active).
     bool fault(std::string_view name, double value, Instant now) override;
     static std::span<const std::string_view> fault_names();
 

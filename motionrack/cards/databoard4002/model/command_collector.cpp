@@ -15,7 +15,8 @@ std::int32_t argument_bytes(std::uint8_t code) {
 }  // namespace
 
 struct CommandCollector::CollectorSteps {
-    /// Events: a command came; it asks or sets, sets, or asks; an access to DATA or C4.
+    /// Events: the next command, then the same command by its data: an answer or arguments (D, P, R), arguments only
+    /// (N, S), an answer only (V); accesses to DATA and C4.
     enum class Event : std::uint8_t { next_command, asks_or_sets, sets, asks, out_data, in_data, enables };
 
     static void open(CommandCollector& c, std::uint8_t code) {

@@ -8,7 +8,7 @@ namespace motionrack::databoard4002 {
 
 namespace {
 
-/// A command byte as readable text.
+/// Formats a command byte as readable text.
 std::string byte_text(std::int64_t code) {
     return code > 0x20 && code < 0x7F ? fmt::format("'{}'", static_cast<char>(code)) : fmt::format("{:02X}h", code);
 }

@@ -25,7 +25,7 @@ enum class CardCondition : std::uint16_t {
     watchdog_reset = 14     ///< the firmware hung
 };
 
-/// "card c1: at 0.012 s ...". `card`: its name.
+/// Describes a condition in a sentence: "card c1: at 0.012 s ...". `card`: the card's name.
 std::string describe(const sim::Condition& condition, std::string_view card);
 
 }  // namespace motionrack::databoard4002

@@ -12,7 +12,7 @@ class EventRegister {
     /// `state` is part of the card's state and must outlive this.
     EventRegister(EventState& state, Pins& pins) : state_(state), pins_(pins) {}
 
-    /// The latched word if an event is pending, else the present one.
+    /// Returns the latched word if an event is pending, else the present one.
     std::uint8_t word() const { return state_.pending ? state_.latched : state_.event; }
     bool pending() const { return state_.pending != 0; }
 
@@ -30,7 +30,7 @@ class EventRegister {
     /// Disarms the zero and reference event when its condition becomes true; returns its bits, else 0.
     std::uint8_t take_armed();
 
-    /// Takes the present stops as known.
+    /// Records the active stops without raising an event for them.
     void take_stops();
     /// Raises the end-stop event if a stop became active; returns the STAT bits of the active ones.
     std::uint8_t note_stops();

@@ -34,11 +34,11 @@ class OutputStage {
     void begin_reset_pulse(Instant now);
     void end_reset_pulse(Instant now);
 
-    /// Notifies the listeners of the pulses whose range is left.
+    /// Notifies the listeners whose watched range the pulse count has left.
     void act(Instant now) { train_.act(now); }
     /// Delivers the edges of the pulses.
     void sync(Instant now) { train_.hand_over(now); }
-    /// Follows or no longer follows the wire fout.
+    /// Begins or ends the updates of the wire fout at each of its edges.
     void follow_fout(bool wanted, Instant now);
     /// Sets the wire fout while a listener follows it.
     void show_fout(Instant now);

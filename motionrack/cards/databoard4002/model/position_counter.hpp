@@ -38,7 +38,7 @@ class PositionCounter {
     void zero(Instant now);
     /// Requests a notification when the value leaves the range. Without a source every counted edge requests a pass.
     void watch(sim::Range range);
-    /// Ends the watch, which the value has left.
+    /// Ends the watch after the value has left its range.
     void clear_watch() { encoder_->watch(encoder_slot_, sim::unwatched_below, sim::unwatched_above); }
 
     /// Range of the present interval of 2^24 counts.

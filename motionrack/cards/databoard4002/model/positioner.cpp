@@ -8,7 +8,7 @@ namespace motionrack::databoard4002 {
 
 namespace {
 
-/// Beyond it a 24-bit difference changes its sign.
+/// Counts: from this difference on, a 24-bit difference changes its sign.
 constexpr std::int64_t half_range = std::int64_t{1} << 23;
 
 }  // namespace

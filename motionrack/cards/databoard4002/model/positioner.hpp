@@ -34,20 +34,20 @@ class Positioner {
     std::int64_t deviation(Instant now) const { return signed24(counter_.value(now) - state_.requested); }
 
     // ---- commands
-    /// G
+    /// Starts the move that P or N specifies, and switches lock off (command G).
     void go(Instant now);
-    /// A
+    /// Sets the present position to 0 (command A).
     void home(Instant now);
-    /// L
+    /// Switches lock on (command L): the card goes back to the requested position whenever it deviates by more than D.
     void lock();
-    /// M
+    /// Switches slope mode and lock off (command M).
     void select_manual();
-    /// O
+    /// Switches slope mode on and sets Rate to its maximum (command O).
     void select_slope() {
         state_.sloped = 1;
         state_.rate = max_rate;
     }
-    /// Q; `zeroes`: also zeroes the values set by P and N.
+    /// Ends the move and lock (command Q); `zeroes`: also zeroes the values set by P and N.
     void quit(bool zeroes);
     void set_window(std::int64_t counts) { state_.window = counts; }
     void set_number(std::int64_t counts);

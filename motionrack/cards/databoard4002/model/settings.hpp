@@ -21,14 +21,14 @@ struct Settings {
     std::uint8_t version = 0x20;               ///< answer to V
     bool zeroing = true;                       ///< enabling the zero or reference event arms the counter's zeroing
     bool quit_zeroes = true;                   ///< Q zeroes the values set by P and N
-    Counting counting = Counting::quadrature;  ///< strap field
+    Counting counting = Counting::quadrature;  ///< counting method that the straps select
     sim::Edges folding = sim::Edges::all;      ///< method 2: 4, 2 or 1 counts per encoder period
     std::int32_t first_pair = 0;  ///< method 2: the strap pair 0 A-B, 1 C-D, 2 E-F, 3 G-H; with folding 2: 0 or 1
-    bool single_ended = false;    ///< limit of 50 kHz per line instead of 100 kHz
+    bool single_ended = false;    ///< O1 and O2 are single-ended: at most 50 kHz per line instead of 100 kHz
     Trim trim = default_trim;     ///< trim of the frequency/voltage converter
 };
 
-/// Errors: refused, with the setting, its value and its range.
+/// Checks all settings. Errors: refused, with the setting, its value and its range.
 Result<void> check(const Settings& settings);
 
 }  // namespace motionrack::databoard4002

@@ -84,7 +84,7 @@ struct Firmware {
     std::int64_t turn = 0;  ///< index of the counter's interval of 2^24 counts
 };
 
-/// A line O1 or O2 that is driven as a wire.
+/// The input line O1 or O2 while the card counts it as a wire.
 struct OutputLine {
     std::uint8_t taken = 0;     ///< the counted level
     std::uint8_t raw = 0;       ///< the level of the wire

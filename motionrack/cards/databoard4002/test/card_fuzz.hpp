@@ -17,12 +17,12 @@ namespace motionrack::databoard4002::fuzz {
 
 using motionrack::fuzz::Feed;
 
-/// Result of a run.
+/// Result of run().
 struct Verdict {
     std::string problem;  ///< "" or the violated invariant
     std::int64_t accesses = 0;
-    std::int64_t pulses = 0;     ///< in either direction, as observed between two accesses
-    std::int64_t resets = 0;     ///< by the host
+    std::int64_t pulses = 0;     ///< pulses in either direction, as observed between two accesses
+    std::int64_t resets = 0;     ///< resets by the host
     std::int64_t watchdogs = 0;  ///< hangs ended by the watchdog
     double seconds = 0;          ///< virtual time
 };

@@ -15,8 +15,8 @@ namespace motionrack::databoard4002::twin {
 struct Op {
     enum Kind : std::uint8_t { out, in, wire, law, hang, broken } kind = out;
     std::int64_t slice = 0;  ///< instant in 0.5 us; never that of a pass
-    std::int64_t a = 0;      ///< port; pin; period in 100 ps
-    std::int64_t b = 0;      ///< value; level; direction
+    std::int64_t a = 0;      ///< the port, the pin, or the period in 100 ps
+    std::int64_t b = 0;      ///< the value, the level, or the direction
 };
 
 struct Program {
@@ -26,7 +26,7 @@ struct Program {
     std::size_t snapshot_at = oracle::never;  ///< after this op the card is saved, disturbed and restored
 };
 
-/// State right after an op.
+/// State that the host sees right after an operation.
 struct Sight {
     int value = 0, status = 0, latch = 0;
     std::int64_t position = 0, pulses = 0;
@@ -35,11 +35,11 @@ struct Sight {
 
 struct Outcome {
     std::vector<Sight> sights;
-    std::vector<oracle::Change> changes;  ///< of outputs, as they were at the end of an instant
+    std::vector<oracle::Change> changes;  ///< output changes; each level is that at the end of its instant
     std::vector<Note> notes;
 };
 
-/// The levels of the outputs at first.
+/// Returns the levels of the outputs at power-up.
 inline std::vector<std::int64_t> first_outputs() {
     return {0, 1, 0, 0, 0};
 }
