@@ -35,8 +35,8 @@ struct ImageContent {
     std::vector<std::uint8_t> payload = std::vector<std::uint8_t>(min_payload);
 };
 
-/// Header and payload, uncompressed. Errors: refused, if the name or the payload is too long or the payload is too
-/// short.
+/// Builds an uncompressed image: header and payload. Errors: refused, if the name or the payload is too long or the
+/// payload is too short.
 Result<std::vector<std::uint8_t>> raw_image(const ImageContent& content);
 /// Compresses an image for files.
 std::vector<std::uint8_t> compressed(std::span<const std::uint8_t> raw);
@@ -62,11 +62,12 @@ Result<void> check_project(const ImageInfo& info);
 
 /// Formats bytes for a rack file: two hexadecimal digits each.
 std::string hex_text(std::span<const std::uint8_t> bytes);
-/// Parses such bytes. Errors: invalid_input.
+/// Parses the text of hex_text(). Errors: invalid_input.
 Result<std::vector<std::uint8_t>> bytes_of_hex(std::string_view text);
 inline constexpr std::size_t max_image_file = 132'000;  ///< maximum bytes of a compressed image, with a margin
 
-/// The built-in image, compressed: project "position", with the counting modes `modes` (words MODE) of its axes.
+/// Returns the built-in image, compressed: project "position", with the counting modes `modes` (words MODE) of its
+/// axes.
 std::vector<std::uint8_t> position_image(const std::array<std::uint16_t, axis_count>& modes = {});
 
 /// Continues the CRC-32 (IEEE 802.3) over more bytes; begin with 0.

@@ -18,11 +18,11 @@ inline constexpr std::uint32_t window = 0x100;  ///< size of a card's address wi
 inline constexpr std::uint16_t signature = 0x4F49;
 inline constexpr std::uint16_t no_answer = 0xFFFF;  ///< answer without a card or a project
 
-/// Offset of a register by its name; undeclared names do not compile.
+/// Returns the offset of the register with this name; an undeclared name does not compile.
 consteval std::uint32_t offset(std::string_view name) {
     return register_named(map::registers, name).offset;
 }
-/// A field of a register: field("CMD", "CMD2").
+/// Returns a field of a register: field("CMD", "CMD2").
 consteval Field field(std::string_view reg, std::string_view name) {
     return {mask_of(register_named(map::registers, reg), name)};
 }
@@ -33,10 +33,10 @@ inline constexpr Field INDEX_LOW = field("MODE", "INDEX_LOW"), FILTER = field("M
 inline constexpr std::uint16_t all = REVERSED.mask | EDGES.mask | INDEX_LOW.mask | FILTER.mask;
 }  // namespace mode
 
-/// CFG_ERROR.
+/// Reason for which the card refused the last image; value of the register CFG_ERROR.
 enum class CfgError : std::uint16_t { none, foreign, length, cut_short, crc, unknown_project };
 
-/// A 24-bit number in two's complement, sign-extended.
+/// Returns the lowest 24 bits of `bits` as a number in two's complement, -8,388,608 .. 8,388,607.
 constexpr std::int32_t signed24(std::int64_t bits) {
     return static_cast<std::int32_t>(((bits & mask_24) ^ 0x800000) - 0x800000);
 }

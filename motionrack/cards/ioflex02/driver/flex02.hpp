@@ -68,7 +68,7 @@ class Flex02 {
     std::uint16_t get(std::uint32_t at);
     void put(std::uint32_t at, std::uint16_t value);
     const std::vector<std::uint8_t>& own_image() const { return settings_.image; }
-    /// Both halves of a 24-bit value, unsigned.
+    /// Reads both registers of a 24-bit value; `low`: offset of the register _L. Returns 0 .. 16,777,215.
     std::uint32_t get24(std::uint32_t low);
     Instant now() const { return interrupt_.now(); }
     void pass(Duration duration) { interrupt_.pass(duration); }

@@ -11,7 +11,7 @@ namespace motionrack::ioflex02 {
 
 class Units {
   public:
-    /// Plain counts.
+    /// Uses counts as the unit.
     Units() = default;
     /// A linear scale; negative: the axis counts in the opposite direction. Errors: refused (0 or not finite).
     static Result<Units> mm(double counts_per_mm) { return of(counts_per_mm, "counts for a mm"); }

@@ -57,7 +57,7 @@ void advance(EncoderAxisState& axis, std::int64_t sample);
 std::int64_t illegal_from(const EncoderAxisState& axis, std::int64_t none);
 /// Executes a calibration command after the samples up to now.
 void command_axis(EncoderAxisState& axis, tIOFlexCmd command);
-/// The word LINES.
+/// Returns the word of the register LINES.
 std::uint16_t lines_word(const EncoderAxisState& axis);
 
 }  // namespace motionrack::ioflex02

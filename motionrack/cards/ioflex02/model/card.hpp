@@ -39,14 +39,14 @@ class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
     // ---- inspection at the present instant
     bool running() const { return seen().configuration.array == ArrayState::running; }
     ArrayState array() const { return seen().configuration.array; }
-    /// -8,388,608 .. 8,388,607.
+    /// Returns the position of an axis, counts: -8,388,608 .. 8,388,607.
     std::int32_t position(int axis) const { return signed24(axis_of(axis).position); }
     /// Counts since the start of the project, unbounded.
     std::int64_t raw_count(int axis) const { return axis_of(axis).raw; }
     tIOFlexSts status(int axis) const { return status_of(axis_of(axis).cal); }
     CalState calibration(int axis) const { return axis_of(axis).cal; }
     std::uint16_t illegal(int axis) const { return axis_of(axis).illegal; }
-    /// Ticks of 1.2 us, 0 .. 16,777,215.
+    /// Returns the card's time in ticks of 1.2 us, 0 .. 16,777,215.
     std::uint32_t time() const;
     const Settings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
@@ -90,7 +90,8 @@ class Card final : public sim::DeferringDevice, public sim::RegisterDevice {
     State state_{};
 };
 
-/// CONFIGURE; END, or a flaw of the image; its last byte; a look at the time.
+/// Events of the array's states: CONFIGURE; a refused image (END too early, or a flaw); the last byte of a valid image;
+/// a check whether the configuration time has passed.
 enum class ArrayEvent : std::uint8_t { configure, refused, complete, time };
 struct ArrayChange {
     Instant now{};

@@ -17,7 +17,7 @@ struct Settings {
     std::vector<std::uint8_t> image = {};  ///< its image, uncompressed; empty: the built-in "position"
 };
 
-/// Errors: refused, with the setting, its value and its range.
+/// Checks all settings. Errors: refused, with the setting, its value and its range.
 Result<void> check(const Settings& settings);
 
 }  // namespace motionrack::ioflex02

@@ -10,7 +10,7 @@
 
 namespace motionrack::ioflex02 {
 
-/// In the order of the map's states.
+/// State of the programmable array; the values are in the order of the map's states.
 enum class ArrayState : std::uint32_t { empty, loading, starting, running, failed };
 
 /// The programmable array and the image that is being received.
@@ -47,7 +47,7 @@ struct State {
     std::array<EncoderAxisState, axis_count> axes{};
     Captured captured;
     std::uint16_t outputs = 0;
-    std::uint16_t axis = 0;  ///< selected by AXIS
+    std::uint16_t axis = 0;  ///< number of the axis that the register AXIS selects, 0 .. 3
     std::uint16_t reported_no_project = 0;
     std::uint16_t begun = 0;
     std::uint32_t held = 0;  ///< outputs that a stop of the machine cleared, until the host writes them low

@@ -20,8 +20,8 @@ using motionrack::fuzz::Feed;
 struct Verdict {
     std::string problem;  ///< "" or the violated invariant
     std::int64_t accesses = 0;
-    std::int64_t counts = 0;   ///< in either direction, as observed between two accesses
-    std::int64_t illegal = 0;  ///< observed transitions
+    std::int64_t counts = 0;   ///< counts in either direction, as observed between two accesses
+    std::int64_t illegal = 0;  ///< illegal transitions observed
     std::int64_t images = 0;   ///< accepted images
     std::int64_t refused = 0;  ///< refused images
     double seconds = 0;        ///< virtual time

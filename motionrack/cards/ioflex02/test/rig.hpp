@@ -84,7 +84,7 @@ struct Rig {
     std::int64_t phase[4] = {};
 };
 
-/// Captures and reads.
+/// Captures all values at this instant (STROBE) and returns the position of an axis, counts.
 inline int position(Rig& rig, int axis) {
     rig.capture();
     return signed24(rig.read24(offset("POS0_L") + 4 * static_cast<std::uint32_t>(axis)));
@@ -92,7 +92,7 @@ inline int position(Rig& rig, int axis) {
 inline int status(Rig& rig, int axis) {
     return rig.read(offset("STS")) >> axis & 1;
 }
-/// A register of one axis, captured at this instant.
+/// Captures all values at this instant and reads a register of one axis.
 inline int of_axis(Rig& rig, int axis, std::uint32_t at) {
     rig.capture();
     rig.write(offset("AXIS"), axis);

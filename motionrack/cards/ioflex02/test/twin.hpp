@@ -26,7 +26,7 @@ class Twin {
     /// Advances to that half; a sample at it is not taken yet.
     void run_to(std::int64_t half);
     void wire(int axis, int line, int level) { axes_[axis].wire[line] = level; }
-    /// The same by the bit of IN.
+    /// Sets the level of an input by its bit in IN.
     void input(int number, int level) { wire(number / 4, number % 4, level); }
     void write(int at, int value);
     int read(int at);
