@@ -12,11 +12,11 @@ namespace motionrack::io8255 {
 inline constexpr int port_count = 3, lines_of_port = 8, group_count = 2;
 inline constexpr std::uint8_t no_answer = 0xFF;  ///< read from an offset without a register
 
-/// Offset of a register by its name; undeclared names do not compile.
+/// Returns the offset of the register with this name; an undeclared name does not compile.
 consteval std::uint8_t offset(std::string_view name) {
     return static_cast<std::uint8_t>(register_named(map::registers, name).offset);
 }
-/// A field of a register: field("BIT", "NUMBER").
+/// Returns a field of a register: field("BIT", "NUMBER").
 consteval Field field(std::string_view reg, std::string_view name) {
     return {mask_of(register_named(map::registers, reg), name)};
 }

@@ -71,7 +71,7 @@ struct PortCLines {
     unsigned strobes = 0;   ///< inputs of handshakes: STB, ACK
     unsigned flags = 0;     ///< outputs of handshakes: IBF, OBF, INTR
     unsigned outputs = 0;   ///< outputs that no handshake uses
-    unsigned writable = 0;  ///< those of them that OUT_C writes; BIT writes all
+    unsigned writable = 0;  ///< those of `outputs` that OUT_C writes; BIT writes every one of `outputs`
 };
 constexpr PortCLines port_c_lines(const PortModes& modes) {
     PortCLines out;

@@ -34,7 +34,7 @@ class Card final : public sim::Device, public sim::ByteDevice {
     void clear_outputs();
 
     // ---- inspection
-    /// The last control word that set the modes.
+    /// Returns the last control word that set the modes.
     std::uint8_t control_word() const { return static_cast<std::uint8_t>(state_.control); }
     PortModes modes() const { return modes_of(state_.control); }
     sim::DeviceId id() const { return id_; }

@@ -17,7 +17,7 @@ enum class CardCondition : std::uint16_t {
     outputs_held = 6       ///< a: port, b: bits of outputs that a stop cleared, and that stay low; once a stop
 };
 
-/// "card c1: at 0.012 s ...". `card`: its name.
+/// Describes a condition in a sentence: "card c1: at 0.012 s ...". `card`: the card's name.
 std::string describe(const sim::Condition& condition, std::string_view card);
 
 }  // namespace motionrack::io8255

@@ -33,7 +33,7 @@ struct Rig {
             out |= static_cast<unsigned>(kernel.level(static_cast<sim::WireId>(first + i))) << i;
         return out;
     }
-    /// A negative pulse at a receiver.
+    /// Drives a receiver low and then high again.
     void pulse(const std::string& pin) {
         set(pin, 0);
         set(pin, 1);
