@@ -44,7 +44,7 @@ constexpr DeclarationError commands_flaw(std::span<const CommandInfo> commands) 
     return {};
 }
 
-/// The command of that name; an undeclared name does not compile.
+/// Returns the command of that name; an undeclared name does not compile.
 consteval const CommandInfo& command_named(std::span<const CommandInfo> commands, std::string_view name) {
     for (const CommandInfo& command : commands)
         if (command.name == name) return command;

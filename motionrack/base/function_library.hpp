@@ -16,7 +16,7 @@
 
 namespace motionrack {
 
-/// A value of an argument with its own meaning, or a bit of it.
+/// A value of an argument, or one bit of it, that has its own meaning.
 struct ValueInfo {
     std::int64_t value = 0;
     std::string_view meaning;
@@ -39,7 +39,7 @@ struct FunctionInfo {
     std::string_view meaning;  ///< a sentence
     std::span<const ArgumentInfo> arguments = {};
     std::string_view returns = {};  ///< the returned number, with its unit; empty: none
-    bool waits = false;             ///< it returns when the action has ended
+    bool waits = false;             ///< the function returns when its action has ended
     bool own = false;               ///< the source has no function of this name
 };
 
@@ -74,7 +74,7 @@ struct CheckedCall {
 Result<CheckedCall> check_call(std::span<const FunctionInfo> functions, std::string_view name,
                                const std::map<std::string, std::int64_t, std::less<>>& arguments);
 
-/// "1 to 8000 pulses", "X 1, Y 2, Z 4, U 8 or a sum of these".
+/// Describes the valid values of an argument: "1 to 8000 pulses", "X 1, Y 2, Z 4, U 8 or a sum of these".
 std::string range_text(const ArgumentInfo& argument);
 /// True if the argument accepts this value.
 bool is_possible(const ArgumentInfo& argument, std::int64_t value);

@@ -1,4 +1,4 @@
-// System functions for reading files; base/windows has the same for Windows.
+// System functions for reading files; base/windows implements them for Windows.
 #pragma once
 
 namespace motionrack {

@@ -64,14 +64,14 @@ constexpr DeclarationError registers_flaw(std::span<const RegisterInfo> register
     return {};
 }
 
-/// The register of that name; an undeclared name does not compile.
+/// Returns the register of that name; an undeclared name does not compile.
 consteval const RegisterInfo& register_named(std::span<const RegisterInfo> registers, std::string_view name) {
     for (const RegisterInfo& reg : registers)
         if (reg.name == name) return reg;
     throw "unknown register name";
 }
 
-/// The mask of a field; an undeclared name, or a register wider than 16 bits, does not compile.
+/// Returns the mask of a field; an undeclared name, or a register wider than 16 bits, does not compile.
 consteval std::uint16_t mask_of(const RegisterInfo& reg, std::string_view field) {
     if (reg.width > 16) throw "the register is wider than a Field";
     for (const FieldInfo& info : reg.fields)

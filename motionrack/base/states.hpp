@@ -26,7 +26,7 @@ struct TransitionInfo {
     std::string_view when;
 };
 
-/// The first state is the one after reset; at most 64 states.
+/// A state machine of a card; its first state is the one after reset. At most 64 states.
 struct MachineInfo {
     std::string_view name;
     std::string_view meaning;
@@ -34,14 +34,14 @@ struct MachineInfo {
     std::span<const TransitionInfo> transitions;
 };
 
-/// Index in the table, or -1 for an unknown name.
+/// Returns the index of a state in the machine's list, or -1 for an unknown name.
 constexpr int state_index(const MachineInfo& machine, std::string_view name) {
     for (std::size_t i = 0; i < machine.states.size(); ++i)
         if (machine.states[i].name == name) return static_cast<int>(i);
     return -1;
 }
 
-/// States reachable from the first one, one bit each.
+/// Returns the states reachable from the first one: bit i is set if state i is.
 constexpr std::uint64_t reachable_states(const MachineInfo& machine) {
     std::uint64_t reached = 1;
     for (std::size_t round = 0; round < machine.states.size(); ++round)
@@ -81,7 +81,7 @@ constexpr DeclarationError machines_flaw(std::span<const MachineInfo> machines) 
     return {};
 }
 
-/// The machine of that name; an unknown name does not compile.
+/// Returns the state machine of that name; an unknown name does not compile.
 consteval const MachineInfo& machine_named(std::span<const MachineInfo> machines, std::string_view name) {
     for (const MachineInfo& each : machines)
         if (each.name == name) return each;
@@ -115,7 +115,8 @@ bool step(const StateRow<Owner, State, Event, Data> (&table)[count], State from,
     return false;
 }
 
-/// The same with the stored state itself.
+/// Executes the first row for the event in the state `state` whose guard holds, and stores the row's new state in
+/// `state`. Returns false if no row fits.
 template <class Owner, class State, class Event, class Data, std::size_t count>
 bool step(const StateRow<Owner, State, Event, Data> (&table)[count], State& state, std::type_identity_t<Event> event,
           std::type_identity_t<Owner>& owner, std::type_identity_t<Data> data) {

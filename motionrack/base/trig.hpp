@@ -8,7 +8,7 @@ namespace motionrack {
 
 inline constexpr double pi = 3.14159265358979323846;
 
-/// Both together: they share the reduction of the angle.
+/// Sine and cosine of one angle, computed together because they share its reduction.
 struct SinCos {
     double sin;
     double cos;

@@ -17,7 +17,7 @@ int open_to_read(const char* path) {
     return ::_open(path, _O_RDONLY | _O_BINARY | _O_NOINHERIT);
 }
 
-/// A read blocks by itself.
+/// Does nothing: on Windows a read blocks until there is a byte.
 void wait_to_read(int) {}
 
 }  // namespace motionrack
