@@ -32,7 +32,7 @@ class LivePort : public Interrupt {
     Instant now() const override { return clock_->now(); }
     bool stop_requested() const override { return stop_ && stop_->load(std::memory_order_relaxed); }
 
-    /// The flag of a signal handler (Ctrl-C); may be nullptr.
+    /// Sets the flag by which a signal handler (Ctrl-C) requests a stop; may be nullptr.
     void set_stop_flag(const std::atomic<bool>* stop) { stop_ = stop; }
     /// True if this program receives the card's interrupts.
     bool has_interrupt() const { return line_.has_value(); }

@@ -39,7 +39,7 @@ bool names_real_card(std::string_view text);
 /// decimal or 0x... Errors: invalid_input, with the cause and the format.
 Result<PortSpec> read_port_spec(std::string_view text);
 
-/// The format of the text, for messages and help.
+/// Returns the format of the text, for messages and help.
 std::string_view port_spec_form();
 
 }  // namespace motionrack::live

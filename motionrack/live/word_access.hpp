@@ -28,7 +28,7 @@ Result<std::unique_ptr<WordAccess>> open_words(const PortSpec& spec, std::uint64
 /// A map of a UIO node, as given by its folder in /sys (maps/map0/size and offset).
 struct UioMap {
     std::uint64_t size = 0;    ///< bytes of the card's region
-    std::uint64_t offset = 0;  ///< its start in the mapping's first page
+    std::uint64_t offset = 0;  ///< bytes from the start of the mapping's first page to the region
 };
 Result<UioMap> read_uio_map(const std::filesystem::path& folder, int map);
 

@@ -56,7 +56,7 @@ void MonotonicClock::sleep(Duration duration) {
             ::Sleep(static_cast<DWORD>(std::min<std::int64_t>(left / milliseconds(1) + 1, 1'000'000)));
 }
 
-/// No file is readable here: see InterruptLine.
+/// Waits for the whole `timeout` and returns false: on Windows no file delivers a card's interrupts, see InterruptLine.
 bool MonotonicClock::wait_readable(int, Duration timeout) {
     sleep(timeout);
     return false;
