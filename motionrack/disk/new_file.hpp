@@ -39,10 +39,11 @@ class NewFile {
     NewFile& operator=(const NewFile&) = delete;
     ~NewFile();
 
-    /// Errors: io. The message is the reason alone, "No space left on device", for the caller's sentence.
+    /// Creates the incomplete file. Errors: io; the message is the reason alone, "No space left on device", for the
+    /// caller's sentence.
     static Result<NewFile> create(const std::string& path, Incomplete part = Incomplete::remove,
                                   Rights rights = Rights::usual);
-    /// As create() for a log, which must exist from its first line: writes in place.
+    /// Creates a log, which must exist from its first line: writes in place. Errors: as create().
     static Result<NewFile> create_in_place(const std::string& path);
 
     explicit operator bool() const { return file_ >= 0; }
