@@ -15,11 +15,11 @@ struct Range {
     constexpr bool left(std::int64_t count) const {
         return (count <= below && below != unwatched_below) || (count >= above && above != unwatched_above);
     }
-    /// Intersection of both ranges.
+    /// Returns the intersection of both ranges.
     constexpr Range within(const Range& other) const {
         return {std::max(below, other.below), std::min(above, other.above)};
     }
-    /// The range of count + offset; open ends stay open.
+    /// Returns the range moved by `offset` counts; open ends stay open.
     constexpr Range moved(std::int64_t offset) const {
         return {below == unwatched_below ? below : below + offset, above == unwatched_above ? above : above + offset};
     }

@@ -22,9 +22,9 @@ class VirtualHost : public Interrupt {
     Instant now() const override { return kernel_.now(); }
     bool stop_requested() const override { return is_set(stop_) || is_set(halted_); }
 
-    /// The flag of a signal handler (Ctrl-C); may be nullptr.
+    /// Sets the flag by which a signal handler (Ctrl-C) requests a stop; may be nullptr.
     void set_stop_flag(const std::atomic<bool>* stop) { stop_ = stop; }
-    /// The flag of the rack's stop latch, which also counts; may be nullptr.
+    /// Sets the flag of the rack's stop latch, which also requests a stop; may be nullptr.
     void set_halted_flag(const std::atomic<bool>* halted) { halted_ = halted; }
     /// Delay of the host from an interrupt to its next step; initially 0.
     void set_latency(Duration latency) { latency_ = latency; }

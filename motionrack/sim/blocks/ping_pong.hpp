@@ -19,7 +19,7 @@ struct PingPong {
         filling = claimed != none ? 1 - claimed : published != none ? 1 - published : 0;
         return buffers[static_cast<std::size_t>(filling)];
     }
-    /// The buffer of begin().
+    /// Returns the buffer that begin() opened for the present write.
     T& current() { return buffers[static_cast<std::size_t>(filling)]; }
     const T& current() const { return buffers[static_cast<std::size_t>(filling)]; }
     bool begun() const { return filling != none; }

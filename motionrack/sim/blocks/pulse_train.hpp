@@ -19,7 +19,7 @@ namespace motionrack::sim {
 
 /// Trivially copyable; part of the owner's state.
 struct PulseTrainState {
-    std::int64_t count = 0;  ///< at `origin`
+    std::int64_t count = 0;  ///< number of pulses at `origin`, signed by direction
     Instant origin{};        ///< the running period's start, or one before it with the same `then`
     Instant handed{};        ///< edges up to here have been delivered
     std::int64_t first = 0;  ///< length of the period that starts at origin, clocks; 0: no pulses

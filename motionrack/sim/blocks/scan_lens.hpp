@@ -22,14 +22,15 @@ struct ScanLens {
     double bits_per_mm = 8656;      ///< K, 1 .. 1e6
 };
 
-/// Checks ranges, finite numbers, and that the height increases up to the field's corner.
+/// Checks the lens. Errors: refused for numbers not finite or out of range, or a height that does not increase up to
+/// the field's corner.
 Result<void> check(const ScanLens& lens);
 
-/// The spot in mm for mirrors at (x, y) bits, -524288 .. 524288 with a small margin.
+/// Returns the spot in mm for mirrors at (x, y) bits, -524288 .. 524288 with a small margin.
 Spot spot_of(const ScanLens& lens, Spot bits);
 
-/// The bits for a spot at (x, y) mm, by Newton's method, to about 1e-9 bits within the reach of the lens. For a
-/// position out of reach it returns the last iterate, which is beyond the range.
+/// Returns the mirror positions in bits for a spot at (x, y) mm, by Newton's method, to about 1e-9 bits within the
+/// reach of the lens. For a spot out of reach, returns the last iterate, which is beyond the range.
 Spot bits_for(const ScanLens& lens, Spot mm);
 
 }  // namespace motionrack::sim

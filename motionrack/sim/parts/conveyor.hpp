@@ -56,10 +56,10 @@ class Conveyor {
     sim::Spot in_field(sim::Spot part, double t_s) const;
     const ConveyorSettings& settings() const { return settings_; }
 
-    /// Effect of changes of the drive.
+    /// Accumulated effect of drive(), stop() and follow_profile().
     struct Driving {
         double travelled = 0;  ///< travel at the last change
-        double law = 0;        ///< travel of the profile at that time
+        double law = 0;        ///< travel by the profile at the last change
         double since_s = 0;
         double velocity = 0;           ///< manual velocity, after the ramp
         double accel = 0, ramp_s = 0;  ///< the ramp begins at since_s

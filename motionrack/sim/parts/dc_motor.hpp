@@ -49,7 +49,7 @@ struct DcMotorModel {
 
     double travel(double seconds) const;
     double velocity(double seconds) const;
-    /// +1, -1, or 0 at standstill.
+    /// Direction of motion: +1, -1, or 0 at standstill.
     int direction() const;
 };
 
@@ -71,7 +71,7 @@ class DcMotor final : public sim::DeferringDevice, public sim::PositionFunction 
     double position(Instant t) const;
     /// Output of the tachometer, as a part of the saturation velocity.
     double tacho(Instant t) const { return rate(t) / settings_.saturation_velocity; }
-    /// +1, -1: stationary at that end of travel.
+    /// End of travel at which the rotor is stationary, +1 or -1; 0: none.
     int blocked() const { return state_.blocked; }
     double volts() const { return state_.volts; }
     sim::WireId drive_wire() const { return drive_; }

@@ -23,7 +23,7 @@ struct GalvoSettings {
     double max_velocity_bits_ms = 800000;  ///< bits/ms, 1 .. 1e9
 };
 
-/// Checks ranges and finite numbers.
+/// Checks the settings. Errors: refused for numbers not finite or out of range.
 Result<void> check(const GalvoSettings& settings);
 
 class GalvoPair {
@@ -31,7 +31,8 @@ class GalvoPair {
     /// `settings` must pass check().
     explicit GalvoPair(const GalvoSettings& settings = {});
 
-    /// Positions at the ends of consecutive ticks, bits. The spans have equal length.
+    /// Computes the mirror positions at the ends of consecutive ticks of 10 us from the commanded ones, bits. The spans
+    /// have equal length.
     void run(std::span<const std::int32_t> x, std::span<const std::int32_t> y, std::span<double> to_x,
              std::span<double> to_y);
     /// Sets the mirrors to standstill at (x, y).

@@ -41,7 +41,7 @@ class LaserGate {
         }
         if (state_.on) f(Light{cursor, 1.0});
     }
-    /// True if light is possible in this tick.
+    /// Returns true if no light is possible in this tick.
     bool dark(std::int64_t tick) const {
         return !state_.on && (state_.count == 0 || first().at >= static_cast<double>(tick + 1));
     }
@@ -54,7 +54,7 @@ class LaserGate {
 
   private:
     struct LightEdge {
-        double at = 0;  ///< in ticks
+        double at = 0;  ///< instant, in ticks of 10 us since 0 s
         std::int64_t on = 0;
     };
     struct State {

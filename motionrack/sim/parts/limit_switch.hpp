@@ -54,7 +54,7 @@ class LimitSwitch {
     /// Level of the wire.
     int level() const;
     bool active() const { return state_.active != 0; }
-    /// stuck_open: never active; stuck_closed: always active.
+    /// Sets or clears a fault: stuck_open, the switch is never active; stuck_closed, always.
     void set_fault(SwitchFault fault) { state_.fault = fault; }
 
   private:

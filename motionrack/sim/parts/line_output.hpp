@@ -76,11 +76,11 @@ class LineOutput {
     void act(Instant now);
     Instant next() const { return std::min(state_.step_at, state_.noise_at); }
 
-    /// broken_a, broken_b, broken_z (1: reads low, 2: reads high), inverted_a, inverted_b, inverted_z, swapped (not 0),
-    /// noise (pulses of a burst on A and B that begins now, up to 1e6), missing_index (number to omit, up to 1e9),
-    /// double_index (distance of a second one after each, counts, less than index_every), jitter (s, maximum delay of
-    /// an edge, up to 1), dirt (invisible lines, less than index_every / 4), overspeed (maximum edges/s, 1 to 1e8; 0:
-    /// as in the settings). Returns false for an unknown fault or a value out of range.
+    /// Sets or clears a fault: broken_a, broken_b, broken_z (1: reads low, 2: reads high), inverted_a, inverted_b,
+    /// inverted_z, swapped (not 0), noise (pulses of a burst on A and B that begins now, up to 1e6), missing_index
+    /// (number to omit, up to 1e9), double_index (distance of a second one after each, counts, less than index_every),
+    /// jitter (s, maximum delay of an edge, up to 1), dirt (invisible lines, less than index_every / 4), overspeed
+    /// (maximum edges/s, 1 to 1e8; 0: as in the settings). Returns false for an unknown fault or a value out of range.
     bool fault(std::string_view name, double value, Instant now);
 
     std::int64_t shown() const { return state_.shown; }

@@ -63,7 +63,7 @@ class LinearStage final : public sim::DeferringDevice, public sim::PositionFunct
     double velocity(Instant t) const;
     double accel() const;
     double volts() const { return static_cast<double>(state_.microvolts) * 1e-6; }
-    /// +1, -1: stationary at that end of travel.
+    /// End of travel at which the stage is stationary, +1 or -1; 0: none.
     int blocked() const { return state_.blocked; }
     sim::WireId drive_wire() const { return drive_; }
     sim::DeviceId id() const { return id_; }

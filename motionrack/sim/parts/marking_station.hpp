@@ -37,7 +37,7 @@ class MarkingStation {
 
     /// Position of the spot in the field, mm, for mirrors at these bits.
     sim::Spot spot(sim::Spot bits) const;
-    /// The same for the present mirror positions.
+    /// Position of the spot in the field, mm, at the present mirror positions.
     sim::Spot spot() const { return spot(last_); }
     /// True if the laser is dark and no light is pending.
     bool dark(std::int64_t tick) const { return gate_.dark(tick); }

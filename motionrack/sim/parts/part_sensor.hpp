@@ -14,8 +14,8 @@ namespace motionrack::parts {
 
 struct PartSensorSettings {
     std::int64_t first = 0;   ///< position of the conveyor with the first part's edge at the sensor, counts
-    std::int64_t every = 1;   ///< distance of the parts, > 0
-    std::int64_t length = 1;  ///< length of a part, 0 < length < every
+    std::int64_t every = 1;   ///< counts from one part's leading edge to the next, > 0
+    std::int64_t length = 1;  ///< counts, 0 < length < every: length of a part
 };
 
 class PartSensor final : public sim::Device, private sim::PositionListener {

@@ -19,7 +19,7 @@ class SignalLamp final : public sim::Device {
     /// Returns true while it shines.
     bool lit() const;
 
-    /// It drives nothing, so it has no events of its own.
+    /// Does nothing: the lamp drives no wire, so it schedules no events.
     void on_scheduled(Instant) override {}
     /// Fault burnt_out, 0 or 1: it stays dark.
     bool fault(std::string_view name, double value, Instant now) override;

@@ -10,14 +10,14 @@ namespace motionrack::fuzz {
 class Feed {
   public:
     virtual ~Feed() = default;
-    /// 16 bits.
+    /// Returns the next number of 16 bits.
     virtual std::uint32_t word() = 0;
     virtual bool empty() const = 0;
-    /// 0 .. n - 1.
+    /// Returns the next number in 0 .. n - 1.
     std::uint32_t below(std::uint32_t n) { return word() % n; }
 };
 
-/// Never empty.
+/// Pseudo-random numbers from a seed; never empty.
 class Random final : public Feed {
   public:
     explicit Random(std::uint64_t seed) : random_(seed) {}
