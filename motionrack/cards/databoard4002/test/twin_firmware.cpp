@@ -6,7 +6,7 @@ namespace motionrack::databoard4002::twin {
 
 namespace {
 
-/// 24-bit two's complement of any number.
+/// Returns the lowest 24 bits of a number in two's complement.
 std::int64_t s24(std::int64_t x) {
     x %= 16'777'216;
     if (x >= 8'388'608) x -= 16'777'216;
