@@ -16,7 +16,7 @@ std::uint32_t of_axis(std::uint32_t first, std::size_t axis) {
     return first + 4 * static_cast<std::uint32_t>(axis);
 }
 
-/// Counts for a line of the encoder, by the field EDGES.
+/// Returns the counts per line of the encoder, 1, 2 or 4, for a word MODE.
 int edges_of(std::uint16_t mode_word) {
     const unsigned edges = EDGES.get(mode_word);
     return edges == 0 ? 4 : edges == 1 ? 2 : 1;

@@ -13,7 +13,7 @@
 namespace motionrack::ioflex02 {
 
 namespace twin {
-/// For messages of failed tests.
+/// Prints a condition in messages of failed tests.
 void PrintTo(const Note& note, std::ostream* out) {
     *out << "{" << note.code << ", " << note.a << ", " << note.b << "}";
 }
