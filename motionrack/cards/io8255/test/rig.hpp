@@ -57,7 +57,7 @@ struct Rig {
     sim::WireId first_wire = kernel.find_wire("c1.pa0");
 };
 
-/// All ports in mode 0, outputs.
+/// Modes with all ports as outputs in mode 0.
 inline constexpr PortModes all_outputs = {.a_strobed = false,
                                           .a_input = false,
                                           .c_upper_input = false,
