@@ -8,7 +8,7 @@
 namespace motionrack::live {
 namespace {
 
-/// Its stop fails in a way that ends the program, as a failed internal check does.
+/// A function library whose stop ends the program, as a failed internal check does.
 class EndingLibrary final : public FunctionLibrary {
   public:
     std::span<const FunctionInfo> functions() const override { return {}; }
