@@ -44,7 +44,7 @@ double DcMotor::wanted_velocity() const {
     return sign_of(state_.volts) * std::min(volts * settings_.gain, settings_.saturation_velocity);
 }
 
-/// Law of motion from `velocity` on with the present voltage and load.
+/// Computes the law of motion from `velocity` on with the present voltage and load.
 DcMotorModel DcMotor::law_from(double velocity) const {
     const double inertia = 1 + state_.load;
     const double limit = settings_.current_limit_accel / inertia, friction = settings_.coulomb_friction / inertia,

@@ -7,7 +7,7 @@ namespace motionrack::parts {
 
 namespace {
 
-/// Hash of a counter.
+/// Mixes the bits of a counter into a pseudo-random number.
 std::uint64_t mixed(std::uint64_t x) {
     return mixed_bits(x + golden_step);
 }

@@ -42,7 +42,7 @@ std::int64_t count_of_nm(double nm) {
     return static_cast<std::int64_t>(std::floor(nm * static_cast<double>(places_per_nm) + 0.5));
 }
 
-/// a / b, rounded up; both > 0.
+/// Returns a / b, rounded up; both > 0.
 std::int64_t steps_up(Wide a, Wide b) {
     const Wide steps = (a + b - 1) / b;
     return steps > max_parabola ? max_parabola : static_cast<std::int64_t>(steps);

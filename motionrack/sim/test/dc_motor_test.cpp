@@ -28,7 +28,7 @@ struct MotorRig {
     DcMotor motor;
 };
 
-/// The same motor in steps of a microsecond.
+/// Reference of the motor: its motion integrated in steps of a microsecond.
 struct SteppedMotor {
     DcMotorSettings s;
     double volts = 0, velocity = 0, place = 0.5;

@@ -28,7 +28,7 @@ struct Rig {
     LinearStage stage;
 };
 
-/// The same stage in steps of a quarter of a microsecond, in metres.
+/// Reference of the stage: its motion integrated in steps of a quarter of a microsecond, in metres.
 struct Stepped {
     LinearStageSettings s;
     double volts = 0;
