@@ -242,7 +242,7 @@ void join_axes(const RackConfig& config, const JoinPins& join) {
     }
 }
 
-/// The tracks of an encoder become wires when the first card needs them.
+/// Returns the kernel wire of an axis' signal; adds the wires of the encoder tracks when the first card needs them.
 sim::WireId axis_wire(Rack& rack, const WireEnd& end) {
     sim::Kernel& kernel = rack.kernel();
     if (end.pin != track_a && end.pin != track_b) return kernel.find_wire(rack.config().end_name(end));

@@ -131,7 +131,7 @@ const void* axis_default(bool rotary) {
     return &(default_axis_of(rotary).*member);
 }
 
-/// With the names of the channels of a type that has several.
+/// Returns the description of the key `channel`, with the channel names of the first card type that has several.
 std::string channel_doc() {
     const CardType& type = *find_card_type(card_types_that(has_channels).front());
     const int count = type.channel_count();

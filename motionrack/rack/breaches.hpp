@@ -27,8 +27,8 @@ enum class BreachKind : std::uint8_t {
 struct Breach {
     BreachKind kind = BreachKind::jump;
     int axis = -1;                        ///< 0 .. 5; -1: not a single axis
-    double value = 0;                     ///< mm/s or degrees/s, mm/s2 or degrees/s2, mm, s
-    double limit = 0;                     ///< unit as of the value
+    double value = 0;                     ///< measured: mm/s or degrees/s, mm/s2 or degrees/s2, mm; late: s
+    double limit = 0;                     ///< exceeded limit, in the unit of `value`
     Instant at{};                         ///< since the start of the rack
     int line = 0;                         ///< program line; 0: unknown
     std::array<double, 3> position = {};  ///< machine position, mm
@@ -37,7 +37,7 @@ struct Breach {
 
 class Breaches {
   public:
-    /// Counts another breach of the same kind and axis, and keeps the larger of the two.
+    /// Adds a breach. If one of that kind and axis is stored, adds up their `times` and keeps the larger one.
     void add(const Breach& breach);
     const std::vector<Breach>& all() const { return all_; }
 
@@ -45,10 +45,10 @@ class Breaches {
     std::vector<Breach> all_;
 };
 
-/// "jump", "accel", "deviation", "late".
+/// Returns "jump", "accel", "deviation" or "late".
 std::string_view name_of(BreachKind kind);
 
-/// "in line 12, at 3.512000 s and X 10.000, Y 0.000, Z 80.000, the velocity step of X was 84.0 mm/s; ...".
+/// Returns "in line 12, at 3.512000 s and X 10.000, Y 0.000, Z 80.000, the velocity step of X was 84.0 mm/s; ...".
 std::string sentence_of(const Breach& breach);
 
 /// Velocity step limit in whole pulses. Between two windows, the velocity of an axis may change by what its velocity
@@ -66,7 +66,7 @@ struct JumpLaw {
     /// pulses/s above what the acceleration limit explains, or 0 if the step is allowed.
     double jump_hz(std::int64_t first, std::int64_t middle, std::int64_t last) const;
     /// Takes one count per period, oldest first, more than `samples`. Returns the highest rate in pulses/s that these
-    /// counts allow at the newest. The rate of a card is above it in a segment with one pulse of a shallow axis.
+    /// counts allow at the newest. A card may show a higher rate for a segment in which the axis makes one pulse.
     double max_hz(std::span<const std::int64_t> counts) const;
 
   private:
@@ -79,16 +79,16 @@ struct JumpLaw {
 /// Detects velocity steps in the pulses of one axis. Allocates only in the constructor.
 class JumpWatch {
   public:
-    /// See JumpLaw.
+    /// Takes the arguments of JumpLaw.
     JumpWatch(double start_hz, double accel_hz, Duration period);
     struct Jump {
-        double hz = 0;       ///< 0: no step
+        double hz = 0;       ///< height of the velocity step, pulses/s; 0: no step
         bool first = false;  ///< the previous sample had no step
     };
     /// Takes the pulses sent up to now. Returns the velocity step in the middle of the two windows that end now, if too
     /// large.
     Jump sample(std::int64_t count);
-    /// Time since the middle of the windows.
+    /// Returns the time from the middle of the two windows to the last sample.
     Duration middle() const { return period_ * static_cast<std::int64_t>(law_.samples); }
 
   private:

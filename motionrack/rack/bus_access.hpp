@@ -6,7 +6,7 @@
 
 namespace motionrack::rack {
 
-/// Errors: invalid_input, listing the available cards.
+/// Returns the card of that name. Errors: invalid_input, listing the available cards.
 Result<Card*> card_named(Rack& rack, std::string_view name);
 
 /// Returns the card if its bus supports an access of `bits` at `address` (see Card::bus_base) in that direction.

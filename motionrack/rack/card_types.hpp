@@ -1,5 +1,5 @@
-// What a rack file can say of a type of card: channels, pins, settings and default wires. Each type has its own in its
-// plug-in; see catalogue.hpp.
+// Description of a card type for the rack file reader: channels, pins, settings and default wires. The plug-in of each
+// type has one; see catalogue.hpp.
 #pragma once
 
 #include <cstdint>
@@ -69,18 +69,18 @@ struct CardFlaw {
     std::string text;
 };
 
-/// What a stage needs of the card that drives it.
+/// Properties of a card type that drives stages.
 struct StageDrive {
     int outputs = 0;  ///< analog outputs, numbered from 0; 0: the type drives no stage
     /// Addresses of the scales that the card reads, in order; empty if its list is invalid.
     std::vector<int> (*scales)(const RackCard& card) = nullptr;
     double (*period_us)(const RackCard& card) = nullptr;                                     ///< frame period
-    std::unique_ptr<CardProcessor> (*processor)(sim::Kernel& kernel, Card& card) = nullptr;  ///< closes its loops
+    std::unique_ptr<CardProcessor> (*processor)(sim::Kernel& kernel, Card& card) = nullptr;  ///< closes the loops
     /// Connects a stage's scale to an input of the decoder that the card reads.
     void (*connect_scale)(Card& card, int input, sim::PositionFunction& scale) = nullptr;
 };
 
-/// For cards that move no axis.
+/// Returns 0, every rate limit of a card that moves no axis.
 inline double no_rate(const RackCard&) {
     return 0;
 }
@@ -112,11 +112,11 @@ struct CardType {
     std::span<const Lamp> lamps = {};
     std::span<const std::string_view> template_wires = {};  ///< lines of a template's [wires], with the card "motion"
     std::string_view probe_pin = {};                  ///< channel input whose edge can latch the position; empty: none
-    bool (*latches)(const RackCard& card) = nullptr;  ///< the card's settings make it latch; with a probe_pin only
-    std::string_view latches_with = {};               ///< those settings as a rack file has them
+    bool (*latches)(const RackCard& card) = nullptr;  ///< true: the card latches; nullptr: the type cannot
+    std::string_view latches_with = {};               ///< rack file settings with which a card of the type latches
     std::span<const StopPin> stop_pins = {};
     StageDrive stage_drive = {};
-    bool marks = false;  ///< it drives the mirrors and the laser of a scan head
+    bool marks = false;  ///< the card drives the mirrors and the laser of a scan head
     /// Number of scales that the card counts for the cards that read them; nullptr: not a decoder.
     std::int64_t (*decoded_scales)(const RackCard& card) = nullptr;
     bool measures_only = false;  ///< the card moves nothing: its bus may be accessed manually while axes move
@@ -135,11 +135,11 @@ struct CardType {
 /// Names of all types, in the order of the reference page.
 std::span<const std::string_view> card_type_names();
 
-/// Names of the types of which this holds, in the same order; and as a text, with "or" between them.
+/// Returns the names of the types for which `holds` is true, in that order; card_types_text() joins them with "or".
 std::vector<std::string_view> card_types_that(bool (*holds)(const CardType& type));
 std::string card_types_text(bool (*holds)(const CardType& type));
 
-// Conditions for these two.
+// Conditions for card_types_that() and card_types_text().
 inline bool drives_stages(const CardType& type) {
     return type.stage_drive.outputs > 0;
 }
@@ -159,7 +159,7 @@ inline bool drives_scan_heads(const CardType& type) {
 /// Returns the type with that name, or nullptr.
 const CardType* find_card_type(std::string_view name);
 
-/// The pins of a card type by their full names: channel by channel, then the chip's own pins.
+/// Pin of a card type under its full name. pins_of() lists those of each channel, then the chip's own pins.
 struct CardPin {
     std::string name;
     PinDirection direction;

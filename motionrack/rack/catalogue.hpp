@@ -54,8 +54,8 @@ class Card {
     /// Returns true if the host can read this address although the map does not declare it. It belongs to a window of
     /// like values, of which the map declares the first.
     virtual bool in_window(std::uint32_t offset) const { return (void)offset, false; }
-    /// One host access, of one of these widths, at bus_base() + an offset that the map declares. Takes the card's bus
-    /// access time.
+    /// Executes one host access of a width in bus_widths(), at bus_base() + an offset that the map declares. Takes the
+    /// card's bus access time.
     virtual std::uint32_t bus_read(int bits, std::uint32_t address) = 0;
     virtual void bus_write(int bits, std::uint32_t address, std::uint32_t value) = 0;
     /// Reads a value by name, without side effects: a register or value of the card ("RR0"). A value of one channel has
@@ -64,7 +64,7 @@ class Card {
     virtual Result<std::int64_t> inspect(std::string_view name) const = 0;
     /// Names of the values that inspect() knows, without the registers of the map.
     virtual std::vector<std::string> value_names() const = 0;
-    /// Counters that a recording shows as numbers, and the reading of one.
+    /// Returns the position counters that a recording shows; counter() reads one of them.
     virtual std::vector<CardCounter> counters() const = 0;
     virtual std::int64_t counter(const CardCounter& which) = 0;
     /// Returns a quantity of the card by name ("fout_hz"), or nothing if unknown.
@@ -132,7 +132,7 @@ class MotionCard : public Card {
     /// Returns a single axis of the rack that this card moves. It continues from the group's position, or its position
     /// is invalid at first. Takes the card from path_axes(), and vice versa.
     virtual Result<control::Axis*> axis(const RackConfig& config, char letter) = 0;
-    /// Acceleration reserve that the planner leaves for this card, as a fraction.
+    /// Acceleration reserve that the planner leaves for this card: fraction of each axis' limit, 0 .. 1.
     virtual double accel_reserve() const = 0;
     /// Rate changes above this limit (pulses/s) are steps, not ramps.
     virtual double jump_hz(const RackConfig& config) const = 0;
@@ -140,7 +140,7 @@ class MotionCard : public Card {
     virtual std::int64_t segments() const = 0;
     /// Pulses of a channel in both directions since the start.
     virtual std::int64_t pulses_made(int channel) = 0;
-    /// Hardware counters of a channel: LP, EP.
+    /// Hardware counters of a channel: pulses sent (LP of an MCX314), encoder counts (EP).
     virtual std::int64_t pulse_counter(int channel) = 0;
     virtual std::int64_t encoder_counter(int channel) = 0;
     /// Position of counter value 0, mm or degrees, for an axis that was homed or set and whose card keeps its counter.
@@ -170,20 +170,20 @@ struct CardFault {
 /// One type of card, complete. Each is one object, in the file of its card (NAME_plugin.cpp or NAME_card.cpp, declared
 /// in NAME_card.hpp).
 struct CardPlugin {
-    CardType type;            ///< what a rack file can say of it
+    CardType type;            ///< its description for the rack file reader
     const CardMap& (*map)();  ///< registers, commands, states and pins
     /// `before`: the existing cards of the rack; cards of some types share a bus.
     std::unique_ptr<Card> (*make)(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                   std::span<const std::unique_ptr<Card>> before);
     /// Reads the registers of a virtual or real card; nullptr if not supported. Errors: machine if no card answers.
     Result<RegisterView> (*view)(const CardBus& bus, bool clearing) = nullptr;
-    /// Reads again, into a view, what does not disturb a function of `library` that waits; nullptr: `view` itself does
-    /// not.
+    /// Rereads into a view the registers whose reading does not disturb a waiting function of `library`. nullptr:
+    /// `view` disturbs none.
     void (*view_again)(const CardBus& bus, RegisterView& view) = nullptr;
     /// Function library of a virtual or real card; nullptr: no library for manual calls.
     std::unique_ptr<FunctionLibrary> (*library)(const CardBus& bus) = nullptr;
-    /// Why a real card has no live port, a sentence; empty: it has one, with `view` and `library`. Nothing is written
-    /// to a real card by a map that is not its maker's: that would set whatever is at these addresses.
+    /// Sentence on why real cards of the type cannot be accessed; empty: they can, with `view` and `library`. A map
+    /// that does not come from the card's maker must not be used to write: it would set unknown registers.
     std::string_view no_live_port = {};
     std::span<const StopReaction> stop_reactions = {};
     std::span<const CardFault> faults = {};

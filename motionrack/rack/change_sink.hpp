@@ -1,4 +1,4 @@
-// Channels of a recorder, and the place to which their changes go.
+// Channels of a recorder, and the sinks that receive their changes.
 //
 //   Recorder ──Declaration──► SinkMaker ──► ChangeSink ◄── change, change, ... settle ... close ── Recorder
 //
@@ -36,13 +36,13 @@ struct Channel {
 
     bool is_level() const { return kind == ChannelKind::level; }
     bool is_wire() const { return is_level() || kind == ChannelKind::number; }
-    /// "X" of "X.step", "rack" of "estop".
+    /// Returns "X" for "X.step", "rack" for "estop".
     std::string scope() const { return dot() == std::string::npos ? "rack" : name.substr(0, dot()); }
-    /// "step" of "X.step", "estop" of "estop".
+    /// Returns "step" for "X.step", "estop" for "estop".
     std::string short_name() const { return dot() == std::string::npos ? name : name.substr(dot() + 1); }
-    /// A change's value is the shown one.
+    /// Returns true if shown() returns a change's value as it is.
     bool is_exact() const { return kind != ChannelKind::quantity && scale == 1; }
-    /// Whole numbers stay exact.
+    /// Converts a change's value to `unit`; whole numbers stay exact.
     double shown(std::int64_t value) const {
         return kind == ChannelKind::quantity ? std::bit_cast<double>(value) : static_cast<double>(value) * scale;
     }
@@ -56,7 +56,7 @@ class ChangeSink {
     virtual ~ChangeSink() = default;
     /// Receives a new value of channel `index`. `at` must not be earlier than the previous one.
     virtual void change(std::size_t index, std::int64_t value, Instant at) = 0;
-    /// The changes up to `at` were handed over.
+    /// Notifies the sink that all changes up to `at` were handed over.
     virtual void settle(Instant at) { (void)at; }
     /// Ends the recording at `end`. Errors: io, the first error.
     virtual Result<void> close(Instant end) { return (void)end, Result<void>(); }
@@ -64,7 +64,7 @@ class ChangeSink {
     virtual bool can_end_again() const { return true; }
 };
 
-/// What a recorder tells its sink at the start.
+/// Channels and time base of a recording, for the maker of its sink.
 struct Declaration {
     std::vector<Channel> channels;
     Instant start{};
@@ -73,7 +73,7 @@ struct Declaration {
     std::string rack_name;
 };
 
-/// Errors: those of the sink; then nothing is recorded.
+/// Makes the sink of a recording. Errors: those of the sink; then nothing is recorded.
 using SinkMaker = std::function<Result<std::shared_ptr<ChangeSink>>(const Declaration& declared)>;
 
 }  // namespace motionrack::rack

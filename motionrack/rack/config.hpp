@@ -46,14 +46,14 @@ struct RackMotor {
 struct RackServo {
     double velocity_per_volt = 100;             ///< mm/s or degrees/s per volt
     std::optional<double> saturation_velocity;  ///< saturation of the amplifier; absent: the velocity at 10 V
-    double current_limit_accel = 5000;          ///< acceleration at the amplifier's current limit, without a load
-    double coulomb_friction = 50;               ///< deceleration without current, per second squared
+    double current_limit_accel = 5000;          ///< at the current limit without load, mm/s2 or degrees/s2
+    double coulomb_friction = 50;               ///< deceleration without current, mm/s2 or degrees/s2
     double time_constant_ms = 10;               ///< time constant of the velocity
     double dead_band_v = 0.005;                 ///< amplifier output is 0 below this voltage, V
     double load_inertia_ratio = 0;              ///< load inertia in units of the motor's own inertia
-    std::optional<double> position_window;      ///< in which the card holds after a move; absent: no position hold
+    std::optional<double> position_window;      ///< of the position hold, mm or degrees; absent: no hold
 
-    /// Maximum velocity.
+    /// Returns the velocity at which the amplifier saturates, mm/s or degrees/s.
     double saturation() const { return saturation_velocity.value_or(10 * velocity_per_volt); }
 };
 
@@ -78,7 +78,7 @@ struct RackHoming {
     HomingDirection search_direction = HomingDirection::minus;  ///< search direction of the home switch
     std::optional<double> search_velocity;                      ///< search velocity; absent: a quarter of max_velocity
     std::optional<double> latch_velocity;  ///< latch velocity; absent: a quarter of max_velocity_step
-    std::optional<double> home_offset;     ///< position of home; absent: position of the switch's edge
+    std::optional<double> home_offset;     ///< position at home, mm or degrees; absent: of the switch's edge
     std::optional<double> index_after;  ///< distance from the switch to the index; absent: as found by the first homing
     double backoff = 0.1;               ///< further travel after the switch is released, mm or degrees
     std::int64_t sequence = 0;  ///< axes with the lowest number are homed first, axes with equal numbers together
@@ -175,7 +175,7 @@ struct RackStageServo {
     double max_velocity_mm_s = 80;
     double max_accel_mm_s2 = 8'000;
     double max_jerk_mm_s3 = 1e6;
-    double delay_ms = 0;  ///< start of the profile
+    double delay_ms = 0;  ///< from the start of the rack to the start of the profile
 };
 
 /// A linear motor stage with its scale, driven by a motion card's analog output; see parts::LinearStageSettings.
@@ -202,7 +202,7 @@ struct RackStage {
 /// A signal lamp of the machine; see parts::SignalLamp.
 struct RackLamp {
     std::string name;
-    bool active_low = false;  ///< it shines while its input is low
+    bool active_low = false;  ///< lit while its input is low
 };
 
 // ---- Wires
@@ -227,8 +227,8 @@ struct RackWire {
     bool link = false;       ///< part of a PulseLink or an EncoderLink, not switched edge by edge
 };
 
-/// Wires of pulses and of encoder tracks, joined into links that carry a position as a function of time. The pulses of
-/// that channel of cards[card] turn the motor of axes[axis].
+/// Step and direction wires as one link, which carries a position as a function of time: the pulses of channel
+/// `channel` of cards[card] turn the motor of axes[axis].
 struct PulseLink {
     int axis = 0;
     int card = 0;
@@ -236,8 +236,8 @@ struct PulseLink {
     friend bool operator==(const PulseLink&, const PulseLink&) = default;
 };
 
-/// The encoder of axes[axis] is connected to the encoder inputs of that channel. `swapped`: track A at input B, so that
-/// it counts backwards.
+/// Encoder wires as one link: the encoder of axes[axis] is connected to the inputs of channel `channel` of cards[card].
+/// `swapped`: track A at input B, so that it counts backwards.
 struct EncoderLink {
     int axis = 0;
     int card = 0;
@@ -297,7 +297,7 @@ struct RackConfig {
     bool jerk_limited() const { return controller.profile == "jerk_limited" && !point_to_point(); }
     /// Axis limits for the planner; axes missing from the rack are not present.
     control::MachineLimits limits() const;
-    /// "motion.xpp", "X.step", "estop", "probe".
+    /// Returns "motion.xpp", "X.step", "estop" or "probe".
     std::string end_name(const WireEnd& end) const;
 };
 

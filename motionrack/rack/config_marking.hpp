@@ -13,7 +13,7 @@ namespace motionrack::rack {
 
 /// Parts that a conveyor carries past a light barrier, at equal distances; mm or degrees.
 struct RackParts {
-    double part_pitch = 100;  ///< part pitch
+    double part_pitch = 100;  ///< distance from a part's edge to the same edge of the next part
     double first_part = 0;    ///< travel at which the first part's edge is at the sensor
     double length = 10;       ///< length of a part, less than `part_pitch`
 };
@@ -22,11 +22,11 @@ struct RackParts {
 struct RackConveyor {
     std::string name;
     bool rotary = false;
-    std::optional<std::string> card;          ///< one that marks; default destination of the conveyor's lines
+    std::optional<std::string> card;          ///< drives scan heads; default end of the conveyor's wires
     std::int64_t encoder = 0;                 ///< 0, 1: the card's encoder input
     double velocity = 100;                    ///< mm/s or degrees/s
     double deceleration = 2000;               ///< mm/s2 or degrees/s2, when the conveyor is stopped
-    double direction_deg = 0;                 ///< direction (belts)
+    double direction_deg = 0;                 ///< direction of travel, from +X counter-clockwise (belts)
     double centre_x_mm = 0, centre_y_mm = 0;  ///< centre of rotation (tables)
     double counts_per_unit = 1000;            ///< encoder counts, four per line; 0: without encoder
     double slip = 0;
@@ -49,7 +49,7 @@ inline constexpr double max_track_counts = 1e7, max_parts = 1e5;
 /// A scan head with its laser over a part; see parts::StationSettings.
 struct RackScanner {
     std::string name;
-    std::string card;                     ///< one that marks
+    std::string card;                     ///< name of a card that drives scan heads
     std::optional<std::string> conveyor;  ///< conveyor that carries the part; absent: a stationary part
     double bits_per_mm = 8656;            ///< scale without a lens
     double tolerance_um = 0.2;
@@ -58,7 +58,7 @@ struct RackScanner {
     parts::GalvoSettings galvo;
     parts::LaserSettings laser;
 
-    /// Settings without the conveyor.
+    /// Returns the settings of the marking station, except its conveyor.
     parts::StationSettings settings() const;
 };
 

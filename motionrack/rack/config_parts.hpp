@@ -50,8 +50,8 @@ bool is_name(std::string_view name);
 /// Sets the wires of `config` and their links: the default rule, changed by the file's [wires] (may be nullptr).
 void resolve_wires(RackConfig& config, const TomlNode* wires, Problems& problems);
 
-/// Sets the links that follow from config.wires. `place_of` returns the location at which the file names an input, if
-/// it does.
+/// Sets the links that follow from config.wires. `location_of` returns the location at which the file names an input,
+/// if it does.
 void resolve_links(RackConfig& config, const std::function<TextPosition(const std::string& input)>& location_of,
                    Problems& problems);
 

@@ -56,7 +56,8 @@ ConveyorDevice conveyor_sender(const RunningConveyor& conveyor) {
 double max_conveyor_velocity(const RunningConveyor& conveyor) {
     return conveyor.config.max_velocity();
 }
-/// The switch back to the profile has no number of its own; it is checked like a velocity.
+/// Returns the maximum value of the fault that switches back to the profile: 1, or the maximum velocity if that is
+/// lower.
 double max_profile_switch(const RunningConveyor& conveyor) {
     return std::min(1.0, max_conveyor_velocity(conveyor));
 }
@@ -98,7 +99,7 @@ class ConveyorPart final : public TablePart<RunningConveyor> {
         return fmt::format("{}={:.17g}", velocity_fault, value);
     }
 
-    /// Those of missing parts are unknown, too.
+    /// Returns the faults of the fitted components only: others are unknown.
     std::vector<std::string_view> fault_names() const override {
         std::vector<std::string_view> out = TablePart::fault_names();
         std::erase_if(out, [this](std::string_view name) { return !can_have(name); });
@@ -137,7 +138,8 @@ constexpr std::array<SignalRow<RackConveyor>, 5> conveyor_signals = {{
      "a section sender"},
     {"sensor_n", PinDirection::output, "light barrier: low while a part is there", has_parts, "a section parts"},
 }};
-/// Pins of the card to which the default rule connects them; "#" stands for the number of the encoder input.
+/// Card pins to which the default rule connects the conveyor's signals, in their order; "#" stands for the number of
+/// the encoder input.
 constexpr std::array<std::string_view, conveyor_signals.size()> conveyor_pins = {"enc#_a", "enc#_b", "mcbsp",
                                                                                  "mcbsp_frame", "start_n"};
 

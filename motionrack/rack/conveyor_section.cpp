@@ -129,7 +129,7 @@ class ConveyorReader {
                             max_parts));
     }
 
-    /// Two conveyors at one pin would drive against each other.
+    /// Refuses two conveyors at one pin of a card.
     void check_pins() {
         for (const RackConveyor& other : config_.tracks) {
             if (other.card != track_.card) continue;

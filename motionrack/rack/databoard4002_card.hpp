@@ -26,9 +26,9 @@ struct Databoard4002Settings {
     bool quit_zeroes = true;               ///< the command Q zeroes what P and N have set
     std::string trim;                      ///< see databoard4002::trim_from_text
     std::int64_t version = 32;             ///< answer to the command V, 0 .. 255
-    std::int64_t firmware_pass_ticks = 1;  ///< 1 .. 4,000 ticks of 2.5 us
-    std::int64_t byte_time_ns = 100'000;   ///< 2,500 .. 100,000,000 ns
-    std::int64_t bus_access_ns = 1'000;    ///< 0 .. 100,000 ns
+    std::int64_t firmware_pass_ticks = 1;  ///< one pass of the firmware, 1 .. 4,000 ticks of 2.5 us
+    std::int64_t byte_time_ns = 100'000;   ///< firmware time for an access, 2,500 .. 100,000,000 ns
+    std::int64_t bus_access_ns = 1'000;    ///< duration of a host access, 0 .. 100,000 ns
 };
 
 inline const Databoard4002Settings& databoard4002_in(const RackCard& card) {
@@ -39,7 +39,7 @@ inline const Databoard4002Settings& databoard4002_in(const RackCard& card) {
 std::unique_ptr<Card> make_databoard4002(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                          std::span<const std::unique_ptr<Card>> before);
 
-/// Returns nullptr if the rack has no such card or the card is of another type.
+/// Returns the card of that name; nullptr if the rack has no such card or the card is of another type.
 const databoard4002::Card* databoard4002_card_of(Rack& rack, std::string_view name);
 
 }  // namespace motionrack::rack

@@ -1,4 +1,4 @@
-// What a rack file can say of a DataBoard 4002, and what the rack can do with one.
+// Description of a DataBoard 4002 for the rack file reader, and its register view, faults and stop reactions.
 #include <fmt/format.h>
 
 #include <array>
@@ -94,7 +94,7 @@ constexpr std::array<Field, 11> databoard4002_settings = {
                                                  "time that one access of the host takes"),
 };
 
-// Highest rate of the card's program: rate 16383.
+// Returns the highest pulse rate, pulses/s: rate 16383 of the card's firmware.
 double databoard4002_pulse_hz(const RackCard&) {
     return 400'000;
 }
@@ -103,7 +103,7 @@ double any_accel(const RackCard&) {
     return std::numeric_limits<double>::infinity();
 }
 
-// Counts all edges; an up or down pulse counts as one pulse.
+// Returns the highest count rate, counts/s: all edges; an up or down pulse counts as one.
 double databoard4002_encoder_hz(const RackCard& card) {
     const Databoard4002Settings& own = databoard4002_in(card);
     return (own.single_ended ? 50'000.0 : 100'000.0) * (own.count_mode == Databoard4002CountMode::up_down ? 1 : 4);
@@ -141,8 +141,8 @@ std::uint8_t databoard4002_select(const RackCard& card) {
     return static_cast<std::uint8_t>(databoard4002_in(card).card_number);
 }
 
-/// STAT, and POSITION and RATE by its commands P and R. These change no motion and no event; an unfinished sequence of
-/// argument bytes ends. Errors: machine if no card answers, or it is not Ready in time.
+/// Reads STAT, and POSITION and RATE by the card's commands P and R. These change no motion and no event; an unfinished
+/// sequence of argument bytes ends. Errors: machine if no card answers, or it is not Ready in time.
 Result<RegisterView> databoard4002_view(const CardBus& bus, bool) {
     db::DriverSettings settings;
     settings.select = bus.select;

@@ -26,7 +26,7 @@ std::vector<PartSignal> signals_of_estop(const RackConfig& config) {
     return out;
 }
 
-/// Joins it to each card that has an input for it.
+/// Joins the emergency stop to each card that has an input for it.
 void join_estop(const RackConfig& config, const JoinPins& join) {
     for (const RackCard& card : config.cards) {
         const CardType* type = find_card_type(card.type);
@@ -35,7 +35,7 @@ void join_estop(const RackConfig& config, const JoinPins& join) {
     }
 }
 
-/// Contacts that the rack file does not declare have no wire.
+/// Lists the wires of the emergency stop and of the contacts that the rack file declares.
 std::vector<PartWire> wires_of_contacts(Rack& rack) {
     std::vector<PartWire> out;
     for (const char* contact : {"estop", "estop1", "estop2", "door"})

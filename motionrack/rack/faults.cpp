@@ -18,7 +18,7 @@ struct FaultAtPart {
     Part* part = nullptr;
     std::string_view name;
     double value = 1;
-    std::uint32_t number = 0;  ///< among the part's fault_names()
+    std::uint32_t number = 0;  ///< index in the part's fault_names()
 };
 
 /// Finds the part of that name, if it has faults.
@@ -60,7 +60,7 @@ Result<FaultAtPart> find_fault(Rack& rack, std::string_view fault, std::string_v
     return found;
 }
 
-/// Faults that the part can have.
+/// Returns the faults that the part can have.
 std::vector<std::string_view> faults_of(const Part& part) {
     std::vector<std::string_view> out = part.fault_names();
     std::erase_if(out, [&](std::string_view name) { return !part.can_have(name); });

@@ -14,13 +14,13 @@ namespace motionrack::rack {
 
 /// Injects the fault `fault` ("NAME" or "NAME=VALUE"; the default value is 1) into `target`: an axis, a stage, a belt,
 /// a table or a card of the rack. Call between runs. Errors: invalid_input (unknown target or fault, listing the
-/// available ones), refused (the part is missing, the value).
+/// available ones), refused (the rack lacks the faulty component, or the value is out of range).
 Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target);
 
 /// Returns the result of inject_fault for name and value without injecting it; the rack may not be started yet.
 Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view target);
 
-/// Maximum value of a fault, in microsteps: the largest push of a motor.
+/// Largest push of a motor by a fault, in microsteps.
 inline constexpr double max_push = 1e7;
 
 /// Names of the faults of an axis, for stepping motors and servos.

@@ -31,7 +31,7 @@ sim::WireId volts_for(const sim::Kernel& kernel, const RackConfig& config, std::
     return sim::WireId::none;
 }
 
-/// Integrates the velocity of a servo over `seconds`, a short time: see parts::DcMotor.
+/// Returns the velocity of a servo after `seconds` (a short time) at `volts`: see parts::DcMotor.
 double velocity_after(const parts::DcMotorSettings& servo, double velocity, double volts, double seconds) {
     const double inertia = 1 + servo.load_inertia_ratio, max_change = servo.current_limit_accel / inertia * seconds;
     const double above = std::max(std::fabs(volts) - servo.dead_band_v, 0.0);
@@ -98,7 +98,7 @@ void FollowingWatch::end() {
     kernel_.schedule(id_, never);
 }
 
-/// A forced input counts nothing.
+/// Returns the following error of an axis in counts; a forced encoder input counts nothing.
 double FollowingWatch::error(std::size_t i, Instant now) {
     const Watched& watched = watched_[i];
     const RunningAxis& running = rack_.axes()[watched.axis];

@@ -23,8 +23,8 @@ class FrameStepper final : public grating_bus::FrameListener {
     /// published none; the rack is at the frame's time then. `between`, which may be empty, is called at every break of
     /// the run, for faults that are due.
     void next(grating_bus::Frame& frame, const std::function<void()>& between);
-    /// Returns the frame published since the last call. For callers that run the rack themselves; call at every break
-    /// of a run, which every frame causes.
+    /// Copies the frame published since the last call into `frame`; returns false if there was none. For callers that
+    /// run the rack themselves; call at every break of a run, which every frame causes.
     bool take(grating_bus::Frame& frame);
 
     void published(const grating_bus::Card& card, const grating_bus::Frame& frame, Instant now) override;

@@ -1,4 +1,4 @@
-// Grating-bus cards in a rack file: their settings, those for the models, and conflicts between cards.
+// Grating-bus cards in a rack file: their keys, the model settings made from them, and conflicts between cards.
 #pragma once
 
 #include <cstdint>
@@ -23,19 +23,19 @@ struct GratingBusSettings {
     std::int64_t first = 0;                                    ///< address of the first scale, 0 .. 127
     std::string addresses;                                     ///< list of addresses, see addresses_from_text
     double t1_ns = 20, t2_ns = 30, t3_ns = 30, clock_ns = 10;  ///< 0.1 .. 6,000 ns
-    double period_us = 200;                                    ///< 1 .. 100,000 us
-    double offset_ns = 0;                                      ///< 0 .. 1e8 ns, at most one period
+    double period_us = 200;                                    ///< frame period, 1 .. 100,000 us
+    double offset_ns = 0;                                      ///< host: first pulse, 0 .. 1e8 ns, at most one period
     GratingShifter clock_shifter = GratingShifter::as_role;
     GratingShifter address_shifter = GratingShifter::as_role;
     bool verify_lines = true;
-    std::int64_t seed = 1;            ///< 0 .. 2^31 - 1
+    std::int64_t seed = 1;            ///< seed of the jitter, 0 .. 2^31 - 1
     std::int64_t bus_access_ns = 40;  ///< 0 .. 100,000 ns
 };
 
 /// Settings of a card of type grating_decoder.
 struct GratingDecoderSettings {
-    std::int64_t scales = 4;           ///< 1 .. 128
-    double latch_ns = 10;              ///< 0 .. 6,000 ns
+    std::int64_t scales = 4;           ///< scales at its inputs, 1 .. 128
+    double latch_ns = 10;              ///< from HOLD to valid counts, 0 .. 6,000 ns
     double output_ns = 20;             ///< 0.1 .. 6,000 ns
     std::int64_t bus_access_ns = 500;  ///< 0 .. 100,000 ns
 };
@@ -51,7 +51,7 @@ inline const GratingDecoderSettings& grating_decoder_in(const RackCard& card) {
 /// gives the reason).
 std::vector<int> wanted_scales(const RackCard& card);
 
-/// Converts a card of the rack file. `first`: it is the first card of its kind in the rack.
+/// Converts a card of the rack file to the model's settings. `first`: it is the first card of its kind in the rack.
 grating_bus::CardSettings grating_settings(const RackCard& card, bool first);
 grating_bus::DecoderSettings decoder_settings(const RackCard& card);
 

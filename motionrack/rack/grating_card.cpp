@@ -309,7 +309,7 @@ void connect_scale(Card& card, int input, sim::PositionFunction& scale) {
     dynamic_cast<GratingCard&>(card).bus()->decoders()[0]->connect(input, &scale);
 }
 
-/// Less than half a period, in steps of 0.1 ns.
+/// Returns the maximum value of the fault frame jitter, ns: less than half a period, in steps of 0.1 ns.
 double max_frame_jitter_ns(const RackCard& card) {
     return std::min(grating_bus_in(card).period_us * 500 - 0.1, max_push);
 }
@@ -324,7 +324,7 @@ constexpr std::array<CardFault, 5> grating_bus_faults = {{
 constexpr std::array<CardFault, 1> grating_decoder_faults = {
     {{"no_latch", 0, 1, "", "1: the decoder does not latch its counts; 0 repairs it"}}};
 
-/// Clears the outputs without a control loop.
+/// Sets the analog outputs without a control loop to 0 V.
 void clear_analog_outputs(Rack& rack, const StopReaction&) {
     for (const auto& card : rack.cards()) {
         auto* found = dynamic_cast<GratingCard*>(card.get());

@@ -148,7 +148,7 @@ class Homing {
         return {};
     }
 
-    /// Takes the axes over; their cards initialise them.
+    /// Fetches the axes of the request from their cards, which initialises them.
     Result<void> take_axes() {
         for (Work& work : works_) {
             MOTIONRACK_TRY(work.axis, work.running->card->axis(rack_.config(), work.running->config.letter));

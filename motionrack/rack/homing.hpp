@@ -32,8 +32,8 @@ struct HomingSettings {
     std::string axes;                         ///< letters; "": every axis with a home switch
     std::optional<int> method;                ///< 1 .. 4 for all axes, instead of the rack file's method
     Duration timeout = whole_seconds(3600);   ///< timeout of each group
-    const std::atomic<bool>* stop = nullptr;  ///< Ctrl-C
-    SeenIndexes* seen_indexes = nullptr;      ///< earlier results, binding for an index without a position key
+    const std::atomic<bool>* stop = nullptr;  ///< stop request (Ctrl-C)
+    SeenIndexes* seen_indexes = nullptr;      ///< updated; used where the rack file has no index_after
     std::function<void(const HomingProgress&)> progress = {};  ///< every 50 ms of virtual time
     /// Called when an axis is homed, while others may still search. Its position counts from the last edge found, at
     /// `since`.

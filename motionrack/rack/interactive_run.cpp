@@ -134,8 +134,8 @@ class LiveRun {
     std::int64_t probes_ = stream_.last_probe().count;
 };
 
-/// Counts a programmed move. Planned moves do not count: a long move is planned in slices, and its remainder again
-/// after a feed hold.
+/// Adds a programmed move to the counts of the run. Planned moves are not counted: a long move is planned in slices,
+/// and its remainder again after a feed hold.
 void count_programmed(const control::Move& move, const control::Point& start, control::ProgramResult& run) {
     const control::Geometry path = control::geometry_of(move, start);
     if (move.kind == control::MoveKind::dwell) {

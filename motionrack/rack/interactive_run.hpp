@@ -37,7 +37,7 @@ class PathObserver final : public control::AxisGroup {
     std::vector<control::MoveStart> observed();
     /// Returns the number of planned moves so far.
     std::int64_t blocks() const { return blocks_; }
-    /// Returns the error of the axes that were stopped on request by the last call; none: it was not so.
+    /// Returns the axes' error if a stop request ended the last call; else nothing.
     const std::optional<Error>& stopped() const { return stopped_; }
 
   private:

@@ -10,7 +10,7 @@ namespace motionrack::rack {
 
 extern const CardPlugin ioflex02_plugin;
 
-/// Returns nullptr if the rack has no such card or the card is of another type.
+/// Returns the card of that name; nullptr if the rack has no such card or the card is of another type.
 ioflex02::Card* ioflex02_card_of(Rack& rack, std::string_view name);
 
 /// Returns the compressed configuration image of the card at that address in the rack file; empty if the file gives

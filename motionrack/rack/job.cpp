@@ -12,7 +12,7 @@ namespace motionrack::rack {
 namespace {
 
 constexpr Duration slice = milliseconds(50);
-/// More than a trajectory with limited jerk looks ahead, so that its plan does not depend on the queue.
+/// Queue length for jerk-limited trajectories: longer than their look-ahead, so that the plan does not depend on it.
 constexpr std::size_t max_jerk_limited_entries = 40'000;
 
 /// Deviation of the pulses allowed beyond the program's tolerance, mm. Ends and chords are on whole pulses, and an arc
@@ -180,7 +180,7 @@ void Job::restart() {
     monitor_->restart(std::move(watched));
 }
 
-/// Call after the card's setup, which sets its counters.
+/// Stores the counters at the start of the program. Call after the card's setup, which sets them.
 void Job::note_before() {
     segments_before_ = rack_.axes().front().card->segments();
     before_.clear();
@@ -233,7 +233,7 @@ JobOutcome Job::run() {
     return out;
 }
 
-/// An axis with an invalid position prevents the next program from starting.
+/// Invalidates the positions of axes that lost them; the next program does not start until these axes are homed.
 void Job::judge_positions(ValidityWatch& validity, JobOutcome& out) {
     for (ValidityFinding& found : validity.poll(true)) {
         if (found.axis == ValidityFinding::no_axis) continue;  // reported with the conditions
@@ -316,7 +316,7 @@ std::vector<Job::DrivenOtherwise> Job::take_path_warnings(control::AxisGroup& ax
     return others;
 }
 
-/// Appended after losses and breaches: these moves were executed correctly.
+/// Warns about lines whose moves were replaced for execution; called after losses and breaches are reported.
 void Job::report_other_motion(const std::vector<DrivenOtherwise>& others, JobOutcome& out) const {
     for (const DrivenOtherwise& one : others) {
         const std::string lines = one.lines == 1
@@ -328,8 +328,8 @@ void Job::report_other_motion(const std::vector<DrivenOtherwise>& others, JobOut
     }
 }
 
-/// A stop by the machine itself (a switch, an alarm or a motor that could not follow) is reported as such, not as a
-/// breach.
+/// Adds the monitor's breaches and their warnings to the outcome. Drops all breaches if the machine itself stopped the
+/// job (switch, alarm, blocked motor).
 void Job::collect_breaches(JobOutcome& out) {
     if (!out.ended && out.ended.error().kind == ErrorKind::machine) {
         out.breaches = {};

@@ -31,7 +31,7 @@ struct JobSettings {
     std::optional<control::gcode::Settings> reading = {};
     Duration sample_period = milliseconds(1);
     std::size_t max_samples = 200'000;
-    const std::atomic<bool>* stop = nullptr;                ///< Ctrl-C; ignored if `commands` is set
+    const std::atomic<bool>* stop = nullptr;                ///< stop request (Ctrl-C); ignored if `commands` is set
     CommandSchedule* commands = nullptr;                    ///< planned commands and stops; must outlive the job
     std::function<void(const JobProgress&)> progress = {};  ///< about every 50 ms of virtual time
     std::function<void()> on_slice = {};                    ///< called between runs: recorders drain here
@@ -77,7 +77,7 @@ struct JobOutcome {
     std::uint64_t events = 0;  ///< kernel events: cost of the simulation
     std::uint64_t trace_hash = 0;
     int rest_axis = -1;   ///< servo axis with the largest position error at the end; -1: no servo
-    double rest_off = 0;  ///< its position error, mm or degrees
+    double rest_off = 0;  ///< position error of rest_axis, mm or degrees
     bool position_valid =
         true;           ///< false after step loss, or if an axis that positions by itself has lost its position
     Breaches breaches;  ///< breaches caused by the controller
@@ -86,7 +86,7 @@ struct JobOutcome {
     bool good() const { return ended.has_value() && position_valid && breaches.all().empty(); }
 };
 
-/// Axes of a rack for a monitor: all of them.
+/// Returns all axes of a rack with the data that a monitor needs.
 std::vector<WatchedAxis> watched_axes(Rack& rack);
 /// Reader settings of a rack's controller; programs begin at the axes' initial positions.
 control::gcode::Settings reader_settings(const RackConfig& config, bool block_delete = false);
@@ -154,7 +154,7 @@ class Job {
     std::uint64_t reported_ = 0;  ///< kernel conditions reported before this program
     std::unique_ptr<Monitor> monitor_;
     std::vector<control::PlannedMove> planned_;
-    Instant given_{};  ///< instant before the setup of its axes
+    Instant given_{};  ///< instant before the axes were set up for the program
     Instant began_{};
     int line_ = 0;            ///< current program line
     std::int64_t lines_ = 0;  ///< number of program lines

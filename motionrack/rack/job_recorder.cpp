@@ -32,7 +32,8 @@ std::vector<int> fill_in_axes(trace::RecordingHead& head, Rack& rack) {
     return indexes;
 }
 
-/// "axes/x/steps", "cards/motion/xlp", "wires/motion/xlmtp". Levels and words of wires are stored as they are.
+/// Returns the recorded signal of a channel, with its group ("axes/x/steps", "cards/motion/xlp", "wires/motion/xlmtp").
+/// Levels and words of wires are stored unscaled.
 trace::RecordedSignal signal_of(const Channel& channel) {
     trace::RecordedSignal out{channel.name, channel.scope() + "/" + channel.short_name(), trace::SignalKind::levels, "",
                               channel.initial};

@@ -32,7 +32,7 @@ class JobRecorder {
     std::uint64_t events() const { return file_->writer.events(); }
 
   private:
-    /// The events of the recorder in the file of the job.
+    /// Writes the recorder's events to the file of the job.
     struct RecordingSink final : ChangeSink {
         RecordingSink(trace::RecordingWriter file, Instant start);
         void change(std::size_t index, std::int64_t value, Instant at) override { writer.event(index, at, value); }

@@ -29,7 +29,7 @@ const char* kind_text(control::MoveKind kind) {
     return "";
 }
 
-/// Index of the lines of a text, by number.
+/// Finds the lines of a text by their numbers.
 class LineIndex {
   public:
     explicit LineIndex(std::string_view text) {
@@ -99,7 +99,8 @@ std::string verdict_text(const JobOutcome& outcome) {
                        control::axis_letters[static_cast<std::size_t>(outcome.rest_axis)]);
 }
 
-/// A jerk-limited trajectory is planned in many short lines; programmed moves count.
+/// Returns the number of planned moves; for jerk-limited trajectories, planned in many short lines, that of the
+/// programmed ones.
 std::int64_t moves_of(const RackConfig& config, const JobOutcome& outcome) {
     return config.jerk_limited() ? outcome.run.moves : outcome.run.plan.moves;
 }

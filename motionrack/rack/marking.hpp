@@ -22,10 +22,10 @@ namespace motionrack::rack {
 struct RunningConveyor {
     RackConveyor config;
     std::unique_ptr<parts::ConveyorDrive> drive;
-    std::unique_ptr<parts::ConveyorPosition> counts;  ///< at the encoder; this and the encoder may be nullptr
+    std::unique_ptr<parts::ConveyorPosition> counts;  ///< in encoder counts; nullptr without encoder
     std::unique_ptr<parts::LineEncoder> encoder;
     std::unique_ptr<parts::SerialWordSource> sender;    ///< may be nullptr
-    std::unique_ptr<parts::ConveyorPosition> position;  ///< at the sensor; this and the sensor may be nullptr
+    std::unique_ptr<parts::ConveyorPosition> position;  ///< travel past the sensor; nullptr without sensor
     std::unique_ptr<parts::PartSensor> sensor;
 
     const parts::Conveyor& track() const { return drive->track(); }
@@ -43,9 +43,10 @@ struct RunningScanner {
     const parts::Workpiece& workpiece() const { return head->station().workpiece(); }
 };
 
-/// Adds its parts and wires to the kernel before the kernel starts. The config must come from read_rack.
+/// Builds a belt or table, with its parts and wires in the kernel, before the kernel starts. The config must come from
+/// read_rack.
 RunningConveyor build_track(sim::Kernel& kernel, const RackConveyor& config);
-/// Call after building its card. `track`: the conveyor that carries its part, or nullptr.
+/// Builds a scan head. Call after building its card. `track`: the conveyor that carries its part, or nullptr.
 RunningScanner build_scanner(sim::Kernel& kernel, const RackScanner& config, const parts::Conveyor* track);
 
 }  // namespace motionrack::rack

@@ -23,7 +23,7 @@ struct Mcx314Settings {
     Mcx314Variant variant = Mcx314Variant::mcx314;
     Mcx314LowSpeedDrive low_speed_drive = Mcx314LowSpeedDrive::at_v;
     Mcx314SoftwareLimits software_limits = Mcx314SoftwareLimits::beyond;
-    std::int64_t ao_after_reset = 8;     ///< 0 .. 65,535 pulses
+    std::int64_t ao_after_reset = 8;     ///< acceleration offset AO after a reset, 0 .. 65,535 pulses
     std::int64_t clock_hz = 16'000'000;  ///< this value only: the model's tick is 125 ns
     BusWidth bus = BusWidth::bits16;     ///< with 8 bits a register takes two accesses
     std::int64_t bus_access_ns = 250;    ///< duration of an access, 0 .. 100,000 ns

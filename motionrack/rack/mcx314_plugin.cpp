@@ -1,4 +1,4 @@
-// What a rack file can say of an MCX314, and what the rack can do with one.
+// Description of an MCX314 for the rack file reader, and its register view, faults and stop reactions.
 #include <array>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/chip/general_outputs.hpp>
@@ -89,17 +89,18 @@ constexpr std::array<Field, 8> mcx314_settings = {
         "from an interrupt of the card to the host's first access; path segments are at least this long"),
 };
 
-// At most one pulse every four clocks (R = 16,000, V = 8,000: every second tick of the halved clock).
+// Returns the highest pulse rate, pulses/s: one pulse every four clocks (R = 16,000, V = 8,000: every second tick of
+// the halved clock).
 double mcx314_pulse_hz(const RackCard& card) {
     return static_cast<double>(mcx314_in(card).clock_hz) / 4;
 }
 
-// A = 8,000 at multiple 500: 8,000 * 125 * 500 pulses/s2.
+// Returns the highest change of the pulse rate: A = 8,000 at multiple 500, 8,000 * 125 * 500 pulses/s2.
 double mcx314_accel_hz_s(const RackCard&) {
     return 8000.0 * 125 * 500;
 }
 
-// The inputs are sampled at every second clock; shorter states are missed.
+// Returns the highest count rate, counts/s: the inputs are sampled at every second clock; shorter states are missed.
 double mcx314_encoder_hz(const RackCard& card) {
     return static_cast<double>(mcx314_in(card).clock_hz) / 2;
 }
@@ -146,9 +147,9 @@ bool is_read_by_the_host(const RegisterInfo& reg) {
     return reg.access != Access::write && reg.bank.empty();
 }
 
-/// All RR registers, and LP, EP, CV, CA of each axis. Writes WR0 only, with NOP (to select the axis) and read commands.
-/// These change no motion, only RR6, RR7 and the selected axis; the card must not be used by others meanwhile.
-/// `clearing`: also reads RR3, which clears its flags and releases the interrupt line.
+/// Reads all RR registers, and LP, EP, CV, CA of each axis. Writes WR0 only, with NOP (to select the axis) and read
+/// commands. These change no motion, only RR6, RR7 and the selected axis; the card must not be used by others
+/// meanwhile. `clearing`: also reads RR3, which clears its flags and releases the interrupt line.
 Result<RegisterView> mcx314_view(const CardBus& bus, bool clearing) {
     RegisterPort& port = *bus.registers;
     RegisterView view;

@@ -29,7 +29,7 @@ struct WatchedAxis {
     const parts::DcMotor* servo = nullptr;        ///< servo that turns the axis; nullptr: pulses turn it
     double pulses_per_unit = 1;
     double origin = 0;            ///< position of true count 0, mm or degrees
-    double commanded_beyond = 0;  ///< further offset of the commanded count
+    double commanded_beyond = 0;  ///< position of commanded count 0, less `origin`
     double jump_hz = 1;           ///< rate changes above this limit are steps, not ramps
     double full_step = 16;        ///< in pulses: a rate change that is over within this distance is not a velocity step
     double accel_hz = 0;          ///< acceleration limit of the axis, pulses/s2
@@ -110,7 +110,7 @@ class Monitor final : public sim::Device {
     /// Sets the permitted deviation of the pulses beyond the program's own tolerance, mm; 0 (default): unlimited. Call
     /// before begin().
     void set_allowed_deviation(double mm) { allowed_mm_ = mm; }
-    /// Machine position at about that instant, mm.
+    /// Returns the machine position of the first sample at or after that instant, mm; else of the last one.
     std::array<double, 3> place_at(Instant at) const;
     const std::vector<ExecutedMove>& blocks() const { return seen_.blocks; }
     std::int64_t blocks_left_out() const { return seen_.blocks_left_out; }

@@ -7,7 +7,8 @@
 
 namespace motionrack::rack {
 
-/// Copies the card's own list of pins; `volts` applies to pins whose names begin with "vout".
+/// Converts a card's own list of pins. Pins whose names begin with "vout" are analog, 1 uV per level unit; the others
+/// are digital.
 template <std::size_t n>
 constexpr std::array<PinType, n> own_pins(const PinInfo* pins) {
     std::array<PinType, n> out{};

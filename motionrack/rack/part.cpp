@@ -1,4 +1,4 @@
-// What parts answer that have nothing to set.
+// Default answers of parts without settable quantities or conditions.
 #include <fmt/format.h>
 
 #include <motionrack/rack/part.hpp>

@@ -1,4 +1,4 @@
-// A part of the running machine, or a card, as those see it that know it by its name alone: quantities and faults.
+// A part of the running machine, or a card, for callers that know only its name: quantities and faults.
 //
 //   rack file ──► Rack ──parts()──► Part "X", "motion", "stage_x", "line" ──► quantities, faults of the whole rack
 //                                    ▲
@@ -60,7 +60,7 @@ class Part {
     // ---- quantities
     /// Existing quantities, in the order of their table.
     virtual std::vector<Quantity> quantities() = 0;
-    /// Returns the value of one, or nothing if the part does not have it.
+    /// Returns the value of that quantity; nothing if the part does not have it.
     virtual std::optional<double> quantity(std::string_view quantity_name, Instant now) = 0;
     /// Returns nothing if the quantity cannot be set.
     virtual std::optional<QuantityLimits> limits_to_set(std::string_view quantity_name, Instant now);
@@ -71,10 +71,9 @@ class Part {
     tl::unexpected<Error> no_such_quantity(std::string_view quantity_name);
 
     // ---- faults
-    /// Known faults, by names that begin with the part of this part: "encoder.dirt". The input log numbers them so.
+    /// Returns the names of the known faults, COMPONENT.FAULT: "encoder.dirt". The input log uses their index.
     virtual std::vector<std::string_view> fault_names() const = 0;
-    /// Returns true if the part has what the known fault is of: a known fault of an axis may be one of an encoder that
-    /// it lacks.
+    /// Returns true if the part has the component of the known fault: an axis may lack the encoder.
     virtual bool can_have(std::string_view fault) const { return (void)fault, true; }
     /// Returns true if the known fault sets the part in motion, which a latched stop prevents.
     virtual bool drives(std::string_view fault) const { return (void)fault, false; }
@@ -88,7 +87,7 @@ class Part {
     virtual std::optional<std::string> describe(const sim::Condition& condition, const sim::Kernel& kernel) const;
 
   protected:
-    /// "X.position_mm".
+    /// Returns "X.position_mm".
     std::string full_name(std::string_view quantity_name) const;
 };
 

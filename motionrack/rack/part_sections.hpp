@@ -19,9 +19,9 @@ struct PartSection {
     std::string_view doc;    ///< paragraph below the title; may be empty
     /// A function, because a table that names types of card asks the catalogue for them.
     std::span<const Field> (*fields)();
-    /// Returns the object of a part's defaults; they may be others for a rotary part.
+    /// Returns the object of a part's defaults; a rotary part may have different ones.
     const void* (*defaults)(bool rotary);
-    std::string (*doc_of_cards)() = nullptr;  ///< in place of `doc` where it names types of card
+    std::string (*doc_of_cards)() = nullptr;  ///< replaces `doc` if the paragraph names card types
 };
 
 /// The sections of a kind of part.
@@ -48,7 +48,7 @@ std::span<const Field> rows_of() {
     return table;
 }
 
-/// The table with another meaning of the row `key`, one that names types of card.
+/// Returns the table with `doc` as the description of row `key`, for descriptions that name card types.
 template <std::size_t n>
 std::array<Field, n> with_doc(std::array<Field, n> table, std::string_view key, std::string_view doc) {
     for (Field& field : table)
@@ -63,7 +63,7 @@ const void* default_object(bool) {
     return &object;
 }
 
-/// Names of the parts in a list of the config.
+/// Returns the names of the parts in a list of the config.
 template <auto list>
 std::vector<std::string_view> names_in(const RackConfig& config) {
     std::vector<std::string_view> out;
@@ -79,8 +79,8 @@ bool is_free_name(const RackConfig& config, std::string_view name);
 /// Reads the section of one part.
 class PartReader {
   public:
-    /// `section`: the part's name for messages ("belt line"), with its unit and kind. `subject`: begins a sentence
-    /// about what conflicts.
+    /// `section`: the part's name for messages ("belt line"), with its unit and kind. `subject`: begins the sentence
+    /// about a conflict.
     PartReader(const TomlNode& node, Section section, std::string subject, Problems& problems)
         : node_(node), section_(std::move(section)), subject_(std::move(subject)), problems_(problems) {}
 
@@ -88,7 +88,7 @@ class PartReader {
     const std::string& name() const { return section_.name; }
     /// Reads the part's own keys. `tables`: further entries of the section. Returns false after an error.
     bool read(std::span<const Field> fields, void* object, std::span<const std::string_view> tables = {});
-    /// Reads one of its tables. Returns false after an error.
+    /// Reads a sub-table of the part's section. Returns false after an error.
     bool read_table(const TomlNode& table, std::span<const Field> fields, void* object);
     /// Reports a conflict at that key of the part's table, or of one of its tables.
     void refuse(std::string_view key, const std::string& text) { refuse(node_, key, text); }

@@ -32,7 +32,7 @@ struct SignalRow {
     std::string_view needs = {};                      ///< rack file entry that the signal requires; with "{u}"
     double volts = 0;                                 ///< volts per level unit (analog signals): see PinType
     int bits = 1;                                     ///< see PinType
-    bool fixed = false;                               ///< the rack itself connects it: no end for [wires]
+    bool fixed = false;                               ///< connected by the rack itself; not available in [wires]
 
     bool has(const Config& config) const { return present == nullptr || present(config); }
 };
@@ -45,7 +45,7 @@ struct PartSignal {
     double volts = 0;
     int bits = 1;
     bool fixed = false;
-    std::string missing = {};  ///< not empty: the rack lacks what the signal comes from; the reason
+    std::string missing = {};  ///< reason why the rack lacks the signal's source; empty: it has it
 };
 
 /// A signal of a kind of part, whether or not a rack has such a part.
@@ -53,7 +53,7 @@ struct DeclaredSignal {
     std::string name;  ///< "X.limit_plus", "NAME.enc_a", "probe"
     PinDirection direction;
     std::string doc;
-    std::string_view needs;  ///< empty: it is always there
+    std::string_view needs;  ///< empty: every part of the kind has the signal
 };
 
 /// A wire of a part in a running rack.
@@ -63,7 +63,7 @@ struct PartWire {
     double unit = 1;                     ///< volts per level unit
     int bits = 1;
     std::string refused = {};                    ///< reason why it cannot be forced; empty: it can
-    bool from_edges = false;                     ///< a recording has it from the edges of a position
+    bool from_edges = false;                     ///< recorded from the edges of a position function
     std::function<int(Instant now)> level = {};  ///< replaces the level of `id`; may be empty
 };
 
@@ -78,9 +78,10 @@ struct PartSignals {
     std::string (*part_name)(const RackConfig& config, std::size_t index);
     /// Wires of all parts of the kind in a rack.
     std::vector<PartWire> (*wires)(Rack& rack);
-    /// Joins what the default rule connects; pins and signals that the rack lacks are left out. nullptr: nothing.
+    /// Joins the pins and signals that the default rule connects and the rack has. nullptr: the rule connects none.
     void (*join_by_default)(const RackConfig& config, const JoinPins& join) = nullptr;
-    /// Returns the wire of an end in a rack that is being built; it may add the wire. nullptr: that of the same name.
+    /// Returns the wire of an end in a rack that is being built; it may add the wire. nullptr: the kernel wire of the
+    /// same name.
     sim::WireId (*wire_of)(Rack& rack, const WireEnd& end) = nullptr;
 };
 

@@ -2,7 +2,7 @@
 // show a rate that the axis never had. Such a rate counts less the pulse by which it may be wrong.
 //
 //   rate    ___/~~~~\___|^|___|^|___|~~~~~~~~~~    between steps: counts fully if it lasts for many pulses
-//   pulses  |  w  |     w     |          w    |    overall: the fullest of the windows of 1 ms to 1 s, less two
+//   pulses  |  w  |     w     |          w    |    overall: most pulses in a window of 1 ms to 1 s, less two
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ struct Name {
           whole(part.size() < text.size()) {}
 };
 
-/// Returns nullptr if the rack has no such part or card.
+/// Returns the part or card of that name; nullptr if the rack has none.
 Part* find_part(Rack& rack, const Name& name) {
     if (!name.whole) return nullptr;
     for (const auto& part : rack.parts())

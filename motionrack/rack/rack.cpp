@@ -84,7 +84,8 @@ std::int64_t rotor_at(const RackAxis& axis, double position) {
     return static_cast<std::int64_t>(std::floor((position - axis.initial_position) * axis.pulses_per_unit() + 0.5));
 }
 
-/// The rotor of a servo is its encoder, which follows the source of its motion.
+/// Returns the settings of the axis' rotor. The rotor of a servo is its encoder: it follows the servo's position
+/// without step loss.
 parts::StepperSettings motor_settings(const RackAxis& axis) {
     if (axis.servo) return {axis.encoder_counts_per_rev, 1, 1e12, 1e12};
     return {axis.motor_steps_per_rev, axis.microsteps, axis.motor.start_stop_hz, axis.motor.pull_out_hz};
@@ -193,7 +194,7 @@ void Rack::build_wires() {
 
 namespace {
 
-/// read_rack has checked that its type drives stages.
+/// Returns the stage properties of a card's type, which drives stages as read_rack has checked.
 const StageDrive& drive_of(const RackConfig& config, const std::string& card) {
     return find_card_type(config.card(card)->type)->stage_drive;
 }
@@ -270,7 +271,8 @@ Result<control::AxisGroup*> Rack::path_axes(const std::optional<control::Point>&
 
 namespace {
 
-/// Detects a shift by a host that resets a card that positions by itself, or writes its counter.
+/// Checks that a card that positions by itself has the axis at `position`; a host may have reset it or written its
+/// counter.
 Result<void> check_agrees(const RunningAxis& axis, double position) {
     const double units = axis.config.pulses_per_unit();
     const double counted =

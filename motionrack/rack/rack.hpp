@@ -111,7 +111,8 @@ class Rack {
     Result<control::AxisGroup*> path_axes(const std::optional<control::Point>& position);
     Result<control::AxisGroup*> path_axes() { return path_axes(initial_position()); }
     Result<control::AxisGroup*> path_axes_here() { return path_axes(std::nullopt); }
-    /// Call-back for progress, draining and Ctrl-C: see VirtualPort. The stop latch is checked after each call.
+    /// Sets the call-back for progress, draining and Ctrl-C: see VirtualPort. The stop latch is checked after each
+    /// call.
     void on_slice(Duration slice, const std::function<void()>& call);
     void set_stop_flag(const std::atomic<bool>* stop);
 

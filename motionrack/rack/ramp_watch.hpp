@@ -39,7 +39,7 @@ class RampWatch final : public sim::Device {
     void look_back(Instant now);
     /// Call when no stop is in force or expected.
     void end();
-    /// `axis`: 0 .. 5.
+    /// Returns true if axis `axis` (0 .. 5) had a velocity step after begin().
     bool has_jumped(int axis) const { return state_.jumped[static_cast<std::size_t>(axis)] > state_.since; }
 
     void on_scheduled(Instant now) override;

@@ -51,7 +51,7 @@ class RecordedJob {
     static Result<std::unique_ptr<RecordedJob>> create(const JobRequest& request, const JobObservers& watchers);
     ~RecordedJob();
 
-    /// Call once. `stop_asked` may be nullptr, `progress` empty.
+    /// Runs the job. Call once. `stop_asked` may be nullptr, `progress` empty.
     const JobOutcome& run(const std::atomic<bool>* stop_asked, std::function<void(const JobProgress&)> progress);
     /// Ends the files. Errors: io; the first one is returned.
     Result<void> finish();

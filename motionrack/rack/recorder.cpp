@@ -190,8 +190,8 @@ void Recorder::add_sampled(SampledChannel one) {
     sampled_.emplace_back(add(std::move(one.channel)), std::move(one.read));
 }
 
-/// Lines of a bus shared by cards have edges as close as its timing allows, those of a scale as close as its count
-/// rate does.
+/// Returns the coarsest time unit that shows every edge: the timing of shared buses and the count rates of scales limit
+/// it.
 Duration Recorder::edge_unit() const {
     Duration unit = nanoseconds(100);
     for (const auto& card : rack_.cards())

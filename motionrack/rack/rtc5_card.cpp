@@ -32,7 +32,7 @@ void* rtc5_of(RackCard& card) {
     return &card.settings.edit<Rtc5Settings>();
 }
 
-/// Lists as at power-up, or the two halves of a small memory.
+/// Makes the model's settings. Lists are as at power-up, or the two halves of a small memory.
 rtc5::Settings settings_of(const Rtc5Settings& s) {
     rtc5::Settings out;
     out.list_memory = s.list_memory;

@@ -9,7 +9,7 @@ namespace motionrack::rack {
 
 extern const CardPlugin rtc5_plugin;
 
-/// Returns nullptr if the rack has no such card or the card is of another type.
+/// Returns the card of that name; nullptr if the rack has no such card or the card is of another type.
 rtc5::Card* rtc5_card_of(Rack& rack, std::string_view name);
 
 }  // namespace motionrack::rack

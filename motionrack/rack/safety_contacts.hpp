@@ -22,7 +22,7 @@ namespace motionrack::rack {
 
 class SafetyContacts final : public sim::Device {
   public:
-    /// Acts on the wire `estop`, before the kernel starts. Adds wires only for existing contacts.
+    /// Drives the existing wire `estop`. Adds the wires of the declared contacts. Call before the kernel starts.
     SafetyContacts(sim::Kernel& kernel, const RackSafety& settings);
 
     /// Returns true if the channels have differed for longer than permitted.
@@ -33,7 +33,7 @@ class SafetyContacts final : public sim::Device {
     bool is_pressed() const { return kernel_.level(estop_) == 0; }
     bool door_open() const { return has_door() && kernel_.level(door_) == 0; }
     bool has_door() const { return door_ != sim::WireId::none; }
-    /// Instant of the last opening.
+    /// Returns the instant at which the door was last opened.
     Instant door_opened() const { return state_.door_opened; }
     /// Returns new alarms, each once, as sentences with the duration and the instant.
     std::vector<std::string> take_alarms();

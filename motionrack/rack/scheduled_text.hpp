@@ -16,7 +16,8 @@ struct ScheduledText {
 
 inline constexpr double max_planned_seconds = 1e6;
 
-/// TIME is a number with s, ms or us, 0 .. max_planned_seconds. Returns nothing if the text has no such time.
+/// Parses ACTION@TIME. TIME is a number with s, ms or us, 0 .. max_planned_seconds. Returns nothing if the text has no
+/// such time.
 std::optional<ScheduledText> read_timed_text(std::string_view text);
 
 }  // namespace motionrack::rack

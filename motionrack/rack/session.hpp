@@ -45,7 +45,7 @@ struct ProgramReport {
     std::string summary;    ///< as printed by the command line; empty if nothing moved
 };
 
-// The two refusals of calls that a host makes a million times per second; their checks are inlined.
+// Errors of functions that a host may call a million times per second; only the checks are inlined.
 Result<void> refuse_in_a_call_back();
 Result<void> refuse_time_beyond_end(Instant now);
 
@@ -83,13 +83,13 @@ class Session {
     Result<std::int64_t> peek(std::string_view card, std::string_view name);
 
     // ---- wires and parts
-    /// See WireAccess.
+    /// Reads or forces a wire: see WireAccess.
     Result<double> wire(std::string_view name) const { return context_.get(name); }
     Result<void> set_wire(std::string_view name, double value);
-    /// See quantities.hpp.
+    /// Reads or sets a quantity: see quantities.hpp.
     Result<double> part(std::string_view part_dot_quantity);
     Result<void> set_part(std::string_view part_dot_quantity, double value);
-    /// See faults.hpp.
+    /// Injects a fault: see faults.hpp.
     Result<void> fault(std::string_view fault, std::string_view target);
 
     // ---- controller functions

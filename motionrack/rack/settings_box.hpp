@@ -8,14 +8,14 @@ namespace motionrack::rack {
 /// Owns one object of any type that can be copied; a copy of the box has a copy of it.
 class SettingsBox {
   public:
-    /// The settings; those of a new object if none of this type were stored.
+    /// Returns the stored settings; default ones if none of this type are stored.
     template <class Settings>
     const Settings& get() const {
         static const Settings defaults{};
         const auto* own = std::any_cast<Settings>(&value_);
         return own != nullptr ? *own : defaults;
     }
-    /// The same, to be changed.
+    /// Returns the stored settings for changing; stores default ones if none of this type are stored.
     template <class Settings>
     Settings& edit() {
         auto* own = std::any_cast<Settings>(&value_);

@@ -116,13 +116,13 @@ struct RunningStage {
 
 parts::LinearStageSettings motor_settings(const RackStage& stage);
 parts::LinearScaleSettings scale_settings(const RackStage& stage);
-/// Settings of the loop of a card whose first scale is `first`.
+/// Returns the loop settings of a driven stage; gains missing in the rack file follow from the bandwidth.
 grating_bus::ServoSettings loop_settings(const RackStage& stage);
 /// Resumes the stage and all others of its card after a stop. `all`: the stages of the rack.
 void go_on(const RunningStage& stage, std::span<const RunningStage> all, Instant now);
 /// Returns "stage step_x: at 0.1 s its loop was opened ...". `stage`: the stage at the output.
 std::string describe_loop(const sim::Condition& condition, const RackStage& stage);
-/// Returns the infeasible part of a stage's profile; empty if feasible.
+/// Returns a sentence on why a stage's profile is infeasible; empty if feasible.
 std::string profile_flaw(const RackStage& stage);
 
 }  // namespace motionrack::rack

@@ -19,7 +19,7 @@ int last_stage_output() {
     return outputs - 1;
 }
 
-/// Returns nullptr if cards of that type drive no stage.
+/// Returns the stage properties of a card type; nullptr if its cards drive no stage.
 const StageDrive* stage_drive_of(std::string_view card_type) {
     const CardType* type = find_card_type(card_type);
     return type != nullptr && drives_stages(*type) ? &type->stage_drive : nullptr;
@@ -111,7 +111,7 @@ std::span<const Field> stage_fields() {
     return table;
 }
 
-/// What conflicts in a stage.
+/// Checks of one stage for conflicts between its keys, its card and its scale.
 class StageCheck {
   public:
     StageCheck(const RackStage& stage, const RackConfig& config, PartReader& reader)

@@ -164,7 +164,7 @@ bool StopLatch::left_to_card(const Input& input, Instant now) const {
     return false;
 }
 
-/// Evaluated for the input that set the latch.
+/// Returns true if the card stops this axis by itself at the input that set the latch.
 bool StopLatch::is_stopped_by_card(char letter) const {
     if (state_.input < 0) return false;
     const Input& input = inputs_[static_cast<std::size_t>(state_.input)];
@@ -248,7 +248,7 @@ bool StopLatch::is_on_card(const RunningAxis& axis, const Input& input) const {
 
 // ---- executing
 
-/// A card reports a watchdog by a condition, which no device receives.
+/// Sets the latch for new watchdog conditions of the cards; conditions are polled because no device receives them.
 void StopLatch::look_at_watchdogs() {
     const std::vector<sim::Condition> conditions = kernel_.conditions();
     const std::uint64_t dropped = kernel_.dropped_conditions();

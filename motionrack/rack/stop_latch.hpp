@@ -55,7 +55,8 @@ class StopLatch final : public sim::Device {
     FollowingWatch& following() { return following_; }
     /// Operator safety contacts.
     SafetyContacts& contacts() { return contacts_; }
-    /// true: the driver holds the feed while the door is open; false: an open door is a stop command.
+    /// Sets the reaction to an open door. true: the driver holds the feed; false: the latch is set as for a STOP
+    /// command.
     void heed_door(bool on) { state_.heeds_door = on; }
     /// Executes the reactions. Call between runs, in every slice of the driver.
     void poll();

@@ -39,7 +39,7 @@ constexpr std::array reactions = {
 };
 // clang-format on
 
-/// In the order in which the latch executes them.
+/// Visits the reactions in the order in which the latch executes them.
 template <class Visitor>
 void each_reaction(const Visitor& visit) {
     for (int place = 0; place <= static_cast<int>(StopOrder::spindle); ++place) {

@@ -44,7 +44,7 @@ struct StopReaction {
     constexpr bool is_to(StopSource source) const { return (sources & 1u << static_cast<unsigned>(source)) != 0; }
 };
 
-/// Bits of these sources.
+/// Returns the bits of these sources.
 constexpr std::uint32_t stop_bits(std::initializer_list<StopSource> sources) {
     std::uint32_t out = 0;
     for (const StopSource source : sources) out |= 1u << static_cast<unsigned>(source);
@@ -77,7 +77,7 @@ std::span<const StopState> stop_states();
 /// while the stop latch is set; invalid_input for an unknown part.
 Result<void> start_part(Rack& rack, std::string_view name);
 
-/// The page docs/explanations/safety.md.
+/// Returns the text of docs/explanations/safety.md.
 std::string safety_reference();
 
 }  // namespace motionrack::rack

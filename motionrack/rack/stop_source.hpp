@@ -20,7 +20,7 @@ inline constexpr std::array<StopSource, 6> stop_sources = {StopSource::emergency
                                                            StopSource::drive_alarm,    StopSource::limit_switch,
                                                            StopSource::watchdog,       StopSource::following_error};
 
-/// "emergency stop", "STOP command", "drive alarm", "limit switch", "watchdog", "following error".
+/// Returns "emergency stop", "STOP command", "drive alarm", "limit switch", "watchdog" or "following error".
 std::string_view name_of(StopSource source);
 
 }  // namespace motionrack::rack

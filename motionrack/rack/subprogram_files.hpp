@@ -7,10 +7,10 @@
 
 namespace motionrack::rack {
 
-/// Path of o<name>: name.ngc in this folder.
+/// Returns the path of subprogram o<name>: name.ngc in this folder.
 std::filesystem::path subprogram_file(const std::filesystem::path& folder, const std::string& name);
 
-/// Reads o<name> from name.ngc in this folder; files of up to 64 MiB.
+/// Returns a source that reads subprogram o<name> from name.ngc in this folder; files of up to 64 MiB.
 control::gcode::SubprogramSource subprograms_in(std::filesystem::path folder);
 
 }  // namespace motionrack::rack

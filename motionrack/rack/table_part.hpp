@@ -50,7 +50,8 @@ const Row* find_row(std::span<const Row> rows, std::string_view name) {
 template <class Running>
 class TablePart : public Part {
   public:
-    /// `unit`: in the names of the quantities. `running` stays where it is as long as the rack exists.
+    /// `unit`: "mm" or "deg", replaces "{u}" in the names of the quantities. `running` stays where it is as long as the
+    /// rack exists.
     TablePart(std::string name, std::string_view unit, Running& running, std::span<const QuantityRow<Running>> rows,
               std::span<const FaultRow<Running>> faults)
         : running_(running), name_(std::move(name)), unit_(unit), rows_(rows), faults_(faults) {}

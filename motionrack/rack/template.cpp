@@ -154,7 +154,7 @@ void write_head(Writer& out, const RackConfig& config, const std::string& card_n
     out.fields(type.settings, type.settings_of(card), type.settings_of(scratch), "");
 }
 
-/// Its only card, called motion, is of the first type of which this holds.
+/// Writes the rack file. Its only card, motion, is of the first type for which `holds` is true.
 std::string write(RackConfig config, bool (*holds)(const CardType& type) = has_channels) {
     const std::string_view card_type = card_types_that(holds).front();
     const CardType& type = *find_card_type(card_type);

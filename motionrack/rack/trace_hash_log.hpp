@@ -8,8 +8,8 @@ namespace motionrack::rack {
 /// Environment variable with the name of the file.
 inline constexpr const char* trace_hash_variable = "MOTIONRACK_TRACE_HASH";
 
-/// If it is set, appends "HASH TICKS" to the file: hash of the wires and conditions, and the rack's time in ticks of
-/// 100 ps. Called at the end of every started rack, including copies. Write errors are ignored.
+/// If the variable is set, appends "HASH TICKS" to the file: hash of the wires and conditions, and the rack's time in
+/// ticks of 100 ps. Called at the end of every started rack, including copies. Write errors are ignored.
 void report_history(const sim::Kernel& kernel) noexcept;
 
 }  // namespace motionrack::rack

@@ -41,7 +41,7 @@ void ValidityWatch::lose(std::size_t axis, Instant at, std::string text, std::ve
     out.push_back({axis, at, std::move(text), true});
 }
 
-/// Steps that were lost and regained by chance count as lost.
+/// Evaluates the new kernel conditions. Steps that were lost and regained by chance count as lost.
 void ValidityWatch::look_at_conditions(std::vector<ValidityFinding>& out) {
     const std::vector<sim::Condition> all = rack_.kernel().conditions();
     const std::uint64_t first = rack_.kernel().dropped_conditions();
@@ -108,7 +108,7 @@ bool ValidityWatch::knows_itself(std::size_t axis) {
     return one && (*one)->position_valid();
 }
 
-/// A servo has no pulses to lose.
+/// Returns the step loss of an axis, in pulses; 0 for a servo.
 std::int64_t ValidityWatch::lost_pulses(std::size_t axis) const {
     const RunningAxis& running = rack_.axes()[axis];
     const Instant now = rack_.kernel().now();
@@ -125,7 +125,7 @@ double ValidityWatch::moved_since(std::size_t axis, const Mark& mark) const {
     return running.servo ? static_cast<double>(turned(axis) - mark.turned) / running.config.counts_per_unit() : 0;
 }
 
-/// Counts of the card minus rotation of the motor.
+/// Returns the card's encoder count minus the motor's rotation, in counts.
 std::int64_t ValidityWatch::counted_wrongly(std::size_t axis) const {
     if (!watched_[axis].counted) return 0;
     const RunningAxis& running = rack_.axes()[axis];

@@ -1,4 +1,4 @@
-// Formats of a recording.
+// Sinks that write VCD, CSV and HDF5 files.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -29,7 +29,8 @@ struct WaveFile {
     std::string version = {};  ///< version of the recording program, stored in HDF5 files
 };
 
-/// Errors of the maker: refused (the time unit), io. On error nothing is written.
+/// Returns the maker of a sink that writes `file`. Errors of the maker: refused (the time unit), io. On error nothing
+/// is written.
 SinkMaker wave_sink(WaveFile file);
 
 }  // namespace motionrack::rack

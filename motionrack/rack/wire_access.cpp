@@ -56,7 +56,7 @@ void WireAccess::add(PartWire wire) {
     wires_[std::move(name)].wire = std::move(wire);
 }
 
-/// The inputs at the end of a link are not separate wires unless they are forced.
+/// Adds the encoder inputs of links. They are not separate wires unless they are forced.
 void WireAccess::add_encoders() {
     const RackConfig& config = rack_.config();
     for (const RackWire& joined : config.wires) {
@@ -91,7 +91,7 @@ tl::unexpected<Error> WireAccess::unknown(std::string_view name) const {
                                                       in_quotes(name), hint.empty() ? "." : hint));
 }
 
-/// Whatever a recording has can be read.
+/// Adds the other kernel wires, so that every recorded wire can be read.
 void WireAccess::add_rest() {
     const sim::Kernel& kernel = rack_.kernel();
     for (std::size_t i = 0; i < kernel.wire_count(); ++i) {
