@@ -85,7 +85,7 @@ struct ExpectedData {
 /// Dataset that grows at its end.
 class Writer {
   public:
-    /// `data`: `count` elements of its type. Returns false on a write error (see Hdf5File::trouble).
+    /// Appends `count` elements of the column's type. Returns false on a write error (see Hdf5File::trouble).
     bool append(const void* data, std::size_t count);
     std::uint64_t size() const { return size_; }
     std::size_t text_bytes() const { return text_bytes_; }
@@ -137,7 +137,7 @@ class Hdf5File {
     void make_group(const std::string& path);
     Writer make_column(const std::string& path, const ColumnSettings& settings);
     void write_text(const std::string& path, std::string_view text);
-    /// `object`: a group or a column; "/" for the file.
+    /// Sets an attribute of `object`: a group or a column; "/" for the file.
     void set(const std::string& object, const char* name, std::string_view text);
     void set(const std::string& object, const char* name, double value);
     void set(const std::string& object, const char* name, std::int64_t value);
@@ -159,7 +159,7 @@ class Hdf5File {
     }
 
     // ---- reading
-    /// Errors: io if the disk, or the damaged file, does not tell.
+    /// Returns true if the object exists. Errors: io if the file cannot be read, or is damaged there.
     Result<bool> has(const std::string& path) const;
     /// Errors: invalid_input if the column is missing or its size is implausible.
     Result<Reader> column(const std::string& path) const;

@@ -42,9 +42,9 @@ struct Hdf5Library {
     }
 };
 
-/// Errors: io if the library is not installed. Once loaded, it stays loaded.
+/// Loads the library. Errors: io if it is not installed. Once loaded, it stays loaded.
 Result<void> load_library();
-/// Requires load_library().
+/// Returns the loaded library. Requires load_library().
 const Hdf5Library& library();
 
 }  // namespace motionrack::trace::hdf5

@@ -110,7 +110,7 @@ class RecordingWriter {
     /// Adds an event of signal number `signal` of the head; events of one signal must be in time order. Skips unchanged
     /// levels.
     void event(std::size_t signal, Instant at, std::int64_t value);
-    /// Requires as many `axes` as in the head.
+    /// Adds a sample; requires as many `axes` as in the head.
     void sample(Instant at, double deviation_mm, std::span<const AxisSample> axes);
     void input(const RecordedInput& input);
     /// Makes all data up to `now` readable, even if the program is killed afterwards.

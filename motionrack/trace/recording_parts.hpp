@@ -27,7 +27,7 @@ const char* value_column(SignalKind kind);
 
 /// Head as JSON, without the texts of program and rack.
 std::string head_json(const RecordingHead& head);
-/// Errors: invalid_input.
+/// Parses the text of head_json(). Errors: invalid_input.
 Result<RecordingHead> head_from_json(std::string_view text);
 
 }  // namespace motionrack::trace

@@ -8,10 +8,11 @@
 
 namespace motionrack::trace {
 
-/// Excludes the series over ReportData::seconds (seconds, axis series, deviation, actual path). Numbers keep every bit.
+/// Converts a report to JSON, without the series over ReportData::seconds (seconds, axis series, deviation, actual
+/// path). Numbers keep every bit.
 std::string report_json(const ReportData& data);
 
-/// Errors: invalid_input.
+/// Parses the text of report_json(). Errors: invalid_input.
 Result<ReportData> report_from_json(std::string_view text);
 
 }  // namespace motionrack::trace

@@ -81,7 +81,7 @@ struct SvgSpan {
     double to_s = 0;
 };
 
-/// Charts of the same time span below each other, and below them a band of named spans. `look.height` is the total
+/// Charts of the same time span below each other, and below them a band of named spans. `style.height` is the total
 /// height. All series must have the same first and last second.
 std::string svg_timeline(const std::string& title, std::span<const SvgChart> charts, std::span<const SvgSpan> spans,
                          const SvgStyle& style = {});

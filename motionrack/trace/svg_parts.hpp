@@ -20,14 +20,14 @@ std::string svg_text(double x, double y, const char* anchor, const std::string& 
 
 /// Returns the colour of a value, 0 .. 1, from bright to dark ("#f69721"); distinguishable with any colour vision.
 std::string svg_shade(double part);
-/// Returns the text colour on such a colour.
+/// Returns the text colour to use on svg_shade(part).
 const char* svg_ink(double part);
 
 /// Series names with their line styles, placed leftwards from `right`; `baseline`: that of the text. Skips series
 /// without a name.
 std::string series_names(const SvgChart& chart, double right, double baseline);
 
-/// Planned segments as one row of points; the edge that ends in points[i] has line[i] and traverse[i].
+/// Planned segments as one row of points; the edge that ends in points[i] has line[i] and rapid[i].
 struct PlannedPath {
     std::vector<Xyz> points;
     std::vector<int> line;

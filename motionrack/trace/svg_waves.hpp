@@ -27,7 +27,7 @@ struct SvgMark {
     std::string name;
 };
 
-/// Requires `from_s` < `to_s`. The number of waves determines the height; look.height is not used.
+/// Requires `from_s` < `to_s`. The number of waves determines the height; style.height is not used.
 std::string svg_waves(const std::string& title, const std::vector<SvgWave>& waves, const std::vector<SvgMark>& marks,
                       double from_s, double to_s, const SvgStyle& style = {});
 
