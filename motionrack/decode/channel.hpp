@@ -25,7 +25,7 @@ struct LineBits {
 
 struct ChannelSettings {
     std::size_t illegal_kept = 1000;     ///< number of illegal transitions with stored samples; all are counted
-    std::size_t indexes_kept = 100'000;  ///< likewise
+    std::size_t indexes_kept = 100'000;  ///< number of index events with stored samples; all are counted
     bool index_low = false;              ///< Z is active low: its falling edges are the index events
 };
 

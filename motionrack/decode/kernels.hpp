@@ -42,9 +42,9 @@ struct Kernels {
     QuadratureCounts (*tally)(const std::uint64_t* a, const std::uint64_t* b, std::size_t words, Levels before);
     /// Extracts `words` words of a plane from bit `bit` of 64 * `words` bytes.
     void (*split)(const std::uint8_t* bytes, std::size_t words, int bit, std::uint64_t* plane);
-    /// The same for two bits together.
+    /// Extracts the planes of two bits at once.
     void (*split_pair)(const std::uint8_t* bytes, std::size_t words, Bits bits, std::uint64_t* a, std::uint64_t* b);
-    /// True if the bits of `mask` equal those of `level` in all of 64 * `words` bytes.
+    /// Returns true if the bits of `mask` equal those of `level` in all of 64 * `words` bytes.
     bool (*steady)(const std::uint8_t* bytes, std::size_t words, std::uint8_t mask, std::uint8_t level);
     /// Adds the counts of four channels in 64 * `words` bytes; `before` is the byte before the first.
     void (*four)(const std::uint8_t* bytes, std::size_t words, const std::array<Bits, 4>& bits, std::uint8_t before,
@@ -62,13 +62,13 @@ inline WordMasks masks_of(std::uint64_t a, std::uint64_t b, Levels before) {
     return {up, one ^ up, (a ^ pa) & ~one};
 }
 
-/// In standard C++, for every CPU.
+/// Returns the kernels in standard C++, for every CPU.
 const Kernels& portable_kernels();
 
 /// All variants that this CPU supports, the fastest last; the portable ones come first.
 const std::vector<Kernels>& available_kernels();
 
-/// The fastest of them.
+/// Returns the fastest kernels that this CPU supports.
 const Kernels& best_kernels();
 
 }  // namespace motionrack::decode

@@ -5,7 +5,7 @@
 
 namespace motionrack::decode {
 
-/// Null if the CPU (or the architecture) lacks the required instructions.
+/// Returns the kernels; nullptr if the CPU (or the architecture) lacks the required instructions.
 const Kernels* avx2_kernels();
 const Kernels* avx512_kernels();
 

@@ -22,7 +22,7 @@ class Source {
 
 /// Opens a file; "-" is standard input. Errors: io.
 Result<std::unique_ptr<Source>> open_file(const std::string& path);
-/// `text` must outlive the source.
+/// Returns a source of the bytes of `text`, which must outlive it.
 std::unique_ptr<Source> from_memory(std::string_view text);
 
 class TextReader {
@@ -33,12 +33,12 @@ class TextReader {
     /// the end or after an error.
     bool line(std::string_view& out);
     bool word(std::string_view& out);
-    /// The next byte that is not white space, without taking it; 0 at the end.
+    /// Returns the next byte that is not white space, without taking it; 0 at the end.
     char peek();
 
     /// Position of the line or word, counted from 1.
     TextPosition location() const { return {static_cast<int>(line_), column_}; }
-    /// True if the file ends directly after it, without a line end: it may be truncated.
+    /// Returns true if the file ends directly after the last line or word, without a line end: it may be truncated.
     bool cut() const { return cut_; }
     /// Error that ended the reading, if any.
     const std::optional<Error>& error() const { return error_; }
