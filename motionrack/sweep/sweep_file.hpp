@@ -3,7 +3,7 @@
 //   [sweep]                                         [vary]
 //   program = "part.ngc"                            "axis.X.max_accel_mm_s2" = { from = 500, to = 4000, steps = 8 }
 //   rack = "router.toml"                            "fault" = ["", "X.limit_plus=0@1.5s"]
-//   order = "grid"                                  "text.TOLERANCE" = [0.01, 0.05]
+//   sampling = "grid"                               "text.TOLERANCE" = [0.01, 0.05]
 #pragma once
 
 #include <cstdint>
@@ -71,7 +71,8 @@ struct SweepFileReading {
     std::vector<Error> errors;
 };
 
-/// Never throws; any text gives a file or errors, sorted by position. `name` is used in the messages.
+/// Reads a sweep file. Never throws; any text gives a file or errors, sorted by position. `name` is used in the
+/// messages.
 SweepFileReading read_sweep_file(std::string_view text, const std::string& name);
 
 /// Reference of the keys (Markdown).

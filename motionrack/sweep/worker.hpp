@@ -17,14 +17,14 @@ struct WorkProgress {
     std::int64_t points = 0;  ///< total
     double seconds_left = 0;  ///< estimated from the points done so far
 };
-/// "12 of 200 points, 1 min 5 s left".
+/// Returns "12 of 200 points, 1 min 5 s left".
 std::string progress_text(const WorkProgress& progress);
 
 /// Estimates the remaining time.
 class WorkClock {
   public:
     explicit WorkClock(const Results& results);
-    /// Call after each row.
+    /// Returns the progress with the remaining time. Call after each row.
     WorkProgress now(const Results& results) const;
 
   private:
