@@ -51,7 +51,7 @@ struct RackServo {
     double time_constant_ms = 10;               ///< time constant of the velocity
     double dead_band_v = 0.005;                 ///< amplifier output is 0 below this voltage, V
     double load_inertia_ratio = 0;              ///< load inertia in units of the motor's own inertia
-    std::optional<double> position_window;      ///< of the position hold, mm or degrees; absent: no hold
+    std::optional<double> position_window;      ///< window of position hold, mm or degrees; absent: no hold
 
     /// Returns the velocity at which the amplifier saturates, mm/s or degrees/s.
     double saturation() const { return saturation_velocity.value_or(10 * velocity_per_volt); }
