@@ -63,7 +63,7 @@ Result<void> VcdChanges::skip_to_end() {
     return refuse("The file ends in its header.");
 }
 
-/// "100ps", or "100 ps".
+/// Reads the timescale: "100ps" or "100 ps".
 Result<void> VcdChanges::timescale() {
     std::string text;
     while (word() && word_ != "$end") text += word_;
@@ -83,7 +83,7 @@ Result<void> VcdChanges::timescale() {
                      "'{}' is not a supported timescale: 1, 10 or 100 of ps, ns, us, ms or s.", text.substr(0, 40))));
 }
 
-/// $var wire 1 ! x_step $end
+/// Reads a declaration: $var wire 1 ! x_step $end
 Result<void> VcdChanges::variable(const std::string& scope) {
     std::vector<std::string> words;
     while (word() && word_ != "$end" && words.size() < 8) words.push_back(word_);

@@ -145,7 +145,7 @@ struct ReportData {
     std::vector<ReportMove> moves;  ///< in execution order; the page lists the first 2,000
     std::vector<ReportWarning> warnings;
     std::vector<ReportPicture> pictures;
-    std::string pictures_hint;  ///< caption of their lines
+    std::string pictures_hint;  ///< caption that explains the lines of the pictures
     std::vector<ReportTable> tables;
     std::vector<ReportSeries> series;
     std::optional<ReportSource> source;

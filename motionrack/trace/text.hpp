@@ -13,16 +13,17 @@ std::string escaped(std::string_view text);
 /// Returns `text` as a quoted ASCII JSON string that cannot end the enclosing script element.
 std::string json_string(std::string_view text);
 
-/// For display: up to `decimals` (0 .. 9) places without trailing zeros, "-0" as "0", a dash for NaN and infinities.
+/// Formats `value` for display: up to `decimals` (0 .. 9) places without trailing zeros, "-0" as "0", a dash for NaN
+/// and infinities.
 std::string number(double value, int decimals);
 
-/// For display: decimals according to magnitude (12345.7, 123.46, 1.235, 0.0123).
+/// Formats `value` for display: decimals according to magnitude (12345.7, 123.46, 1.235, 0.0123).
 std::string number(double value);
 
-/// For SVG coordinates: two decimals; 0 for NaN and infinities.
+/// Formats an SVG coordinate: two decimals; 0 for NaN and infinities.
 std::string coordinate(double value);
 
-/// Integer in groups of three, "12 345 678", with no-break spaces.
+/// Formats an integer in groups of three, "12 345 678", with no-break spaces.
 std::string grouped(long long value);
 
 }  // namespace motionrack::trace
