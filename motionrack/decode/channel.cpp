@@ -14,7 +14,7 @@ constexpr std::size_t chunk_words = 64;
 
 using Plane = std::array<std::uint64_t, chunk_words>;
 
-/// The word with `size` (1 .. 63) samples, padded with the last one.
+/// Returns the word with `size` (1 .. 63) samples, padded with the last one.
 std::uint64_t filled(std::uint64_t word, std::size_t size) {
     const std::uint64_t there = (std::uint64_t{1} << size) - 1;
     return (word >> (size - 1) & 1U) != 0 ? word | ~there : word & there;
@@ -86,7 +86,7 @@ void ChannelDecoder::words(const std::uint64_t* a, const std::uint64_t* b, const
     if (z) last_z_ = z[words - 1] >> 63;
 }
 
-/// True if the index line changes.
+/// Returns true if the index line changes.
 bool ChannelDecoder::index_in(const std::uint64_t* z, std::size_t words) const {
     const std::uint64_t steady = 0 - last_z_;
     std::uint64_t changed = 0;

@@ -6,10 +6,10 @@
 
 namespace motionrack::decode {
 
-/// Tables with the first `shown` entries of each list.
+/// Returns tables with the first `shown` entries of each list.
 std::string analysis_text(const Analysis& analysis, const std::string& name, std::size_t shown);
 
-/// All stored results; numbers in counts, seconds and counts/s.
+/// Returns all stored results; numbers in counts, seconds and counts/s.
 std::string analysis_json(const Analysis& analysis, const std::string& name);
 
 /// Warnings for the reader: lines without a level, X and Z. A truncated file is not included.

@@ -142,7 +142,7 @@ Result<void> VcdCapture::set_timescale(const std::vector<std::string>& words) {
         text_.location());
 }
 
-/// $var TYPE WIDTH CODE NAME [RANGE] $end
+/// Reads a declaration: $var TYPE WIDTH CODE NAME [RANGE] $end
 Result<void> VcdCapture::declare(const std::vector<std::string>& words) {
     if (words.size() < 4)
         return refuse(
