@@ -17,7 +17,7 @@ inline std::string all_texts(const std::vector<Error>& errors) {
     return out;
 }
 
-/// A card "m" and an axis on its first channel, then `more`.
+/// Returns a rack file with a card "m" and an axis on its first channel, then `more`.
 inline std::string rack_with(const std::string& more, char axis = 'X') {
     return fmt::format("[card.m]\ntype = \"mcx314\"\n[axis.{}]\ncard = \"m\"\nchannel = \"x\"\n{}", axis, more);
 }

@@ -55,7 +55,7 @@ inline Order fault(std::string what, std::string of) {
 
 struct Step {
     Orders orders;
-    std::uint64_t ns = 0;  ///< time that passes after them
+    std::uint64_t ns = 0;  ///< time that passes after the commands, ns
 };
 
 /// A rack file, and the commands of a host and its surroundings.

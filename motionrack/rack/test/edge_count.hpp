@@ -149,12 +149,12 @@ class Mcx314Moves {
     std::int64_t max_speed_, max_pulses_;
 };
 
-/// Whether there is another move: the first ones of few may all be too short for a pulse.
+/// Returns true if another move follows: the first ones of few may all be too short for a pulse.
 inline bool moves_on(std::uint64_t made, std::uint64_t moves, const Counted& bench) {
     return goes_on(made, moves, moves + 100, bench.seen.first != 0);
 }
 
-/// Pulses of one axis against its logical position.
+/// Compares the pulses of one axis with its logical position LP.
 inline void count_mcx314(std::uint64_t moves, char axis, bool is_one_pulse) {
     Random random(seed_from_environment());
     const std::string pin = std::string("c1.") + axis;
@@ -203,7 +203,7 @@ inline void count_databoard4002(std::uint64_t moves) {
     EXPECT_NE(bench.seen.first, 0);
 }
 
-/// Pulses of frame_done against the frames published by the card, at random instants and with random claims.
+/// Compares the pulses of frame_done with the frames published by the card, at random instants and with random claims.
 inline void count_grating_bus(std::uint64_t moves, const char* card) {
     Random random(seed_from_environment());
     const std::string name = card;

@@ -87,7 +87,7 @@ inline void count_encoder(std::uint64_t moves, char letter, const EncoderAxis& a
     for (std::uint64_t i = 0; moves_on(i, moves, bench) && !testing::Test::HasFailure(); ++i) {
         SCOPED_TRACE(fmt::format("move {}", i));
         driving.make(random);
-        bench.pass(milliseconds(10));  // a motor that was stopped too quickly shows it within 8 ms
+        bench.pass(milliseconds(10));  // step loss after a stop without a ramp shows within 8 ms
         readers.expect_what_was_recorded();
     }
     EXPECT_NE(bench.seen.first, 0);

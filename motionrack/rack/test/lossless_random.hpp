@@ -213,7 +213,7 @@ inline void ask_stop(Disturbed& disturbed, Chance& chance, double seconds) {
     disturbed.stopped = true;
 }
 
-/// MOTIONRACK_SEED=N runs it alone, with MOTIONRACK_PROGRAMS=1.
+/// Runs the random program of `seed`. MOTIONRACK_SEED=N with MOTIONRACK_PROGRAMS=1 runs that of seed N alone.
 inline void drive_one(std::uint64_t seed, Arcs arcs = Arcs::none) {
     ChordMaker random(seed, arcs);
     const std::string profile = seed % 2 == 0 ? "trapezoid" : "jerk_limited";
@@ -234,8 +234,9 @@ inline void drive_one(std::uint64_t seed, Arcs arcs = Arcs::none) {
     if (!disturbed.stopped || driven.outcome.ended) expect_end(driven, program.x, program.y);
 }
 
-/// A host that is late at random instants: its axes stop dead there and lose steps, but the card sends each pulse of
-/// the program, and goes on in about its time. Where another axis has to lead the chain, it goes at least at 0.7 of it.
+/// A host that is late at random instants: its axes stop there without a ramp and lose steps, but the card sends each
+/// pulse of the program, and continues in about the planned time. Where another axis has to lead the chain, it goes at
+/// least at 0.7 of it.
 inline void drive_late(std::uint64_t seed) {
     ChordMaker random(seed, Arcs::some);
     if (random.probes()) return;
@@ -275,7 +276,8 @@ inline void drive_late(std::uint64_t seed) {
     }
 }
 
-/// A share of the programs, so that several processes run: every `shares`th from `share`, up to the first failure.
+/// Runs a share of the programs, so that several processes can divide them: every `shares`th from `share`, up to the
+/// first failure.
 inline void drive_share(std::uint64_t share, std::uint64_t shares, std::uint64_t otherwise,
                         const std::function<void(std::uint64_t seed)>& drive) {
     const std::uint64_t first = seed_from_environment(), count = cases("MOTIONRACK_PROGRAMS", otherwise);
