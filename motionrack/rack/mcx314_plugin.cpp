@@ -1,4 +1,4 @@
-// Description of an MCX314 for the rack file reader, and its register view, faults and stop reactions.
+// Description of an MCX314 for the rack file reader, and its register view, function library and stop reactions.
 #include <array>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/chip/general_outputs.hpp>

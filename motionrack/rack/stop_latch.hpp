@@ -55,8 +55,8 @@ class StopLatch final : public sim::Device {
     FollowingWatch& following() { return following_; }
     /// Operator safety contacts.
     SafetyContacts& contacts() { return contacts_; }
-    /// Sets the reaction to an open door. true: the driver holds the feed; false: the latch is set as for a STOP
-    /// command.
+    /// Sets the reaction to an open door. true (default): the latch is set as for a STOP command; false: the driver
+    /// holds the feed instead.
     void heed_door(bool on) { state_.heeds_door = on; }
     /// Executes the reactions. Call between runs, in every slice of the driver.
     void poll();
