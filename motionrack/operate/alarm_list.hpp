@@ -12,18 +12,19 @@ namespace motionrack::operate {
 
 class AlarmList {
   public:
-    /// `alarms`: where the status has them, `max` at most; their time is that of the rack. Both must outlive this.
+    /// `alarms`: the status' list, at most `max` alarms, dated in the rack's virtual time. `rack` and `alarms` must
+    /// outlive this.
     AlarmList(const rack::Rack& rack, std::vector<Alarm>& alarms, std::size_t max)
         : rack_(rack), alarms_(alarms), max_(max) {}
 
     /// Adds an active alarm; one of an axis replaces the axis' earlier ones. Ended and acknowledged alarms are removed
     /// first, then the oldest. The result is valid until the next alarm.
     Alarm& raise(std::string source, std::string text, char axis = '\0');
-    /// Adds alarms that have a source, a text and an axis.
+    /// Raises one alarm for each of these, with its source, text and axis; ignores their other fields.
     void raise(std::vector<Alarm> alarms);
     /// Ends and acknowledges the alarms of these axes, because the alarm that is raised next also covers them.
     void supersede(std::string_view axes);
-    /// Returns false if the alarm is unknown.
+    /// Acknowledges the alarm with this Alarm::number. Returns false if no alarm has it.
     bool acknowledge(std::int64_t number);
     /// Ends the alarms whose cause a reset ends.
     void reset();

@@ -1,4 +1,4 @@
-// Which axes of an operated machine are enabled.
+// Enabled axes of an operated machine.
 //
 //   disabled ──enable──► enabled ──disable──► to be disabled: it no longer starts ──standstill──► disabled
 #pragma once
@@ -15,9 +15,9 @@ class AxisEnables {
     /// All axes start as disabled. `config` must outlive this.
     explicit AxisEnables(const rack::RackConfig& config) : config_(config) {}
 
-    /// Enables these axes, or disables them at the next standstill; empty: all.
+    /// Enables these axes (letters, "XY"), or disables them at the next standstill; empty: all.
     void set(bool on, std::string_view axes);
-    /// Disables the axes that are to be disabled. Call at standstill.
+    /// Disables the axes for which set() has requested it. Call at standstill.
     void settle();
     bool of(const rack::RackAxis& axis) const { return enabled_[index(axis)]; }
     /// Returns true if the axis is enabled and stays so.

@@ -1,9 +1,9 @@
-// Which driver has the axes of an operated machine.
+// Hands the axes of an operated machine from one driver to another: program executor, single-axis motion, service.
 //
 //   executor with the axis group ◄──take_group── single axes: jogs, set positions; homing, service, ended writes
 //              └──────────────take_axis, release──────►┘
 //
-// Setting up a card for another driver takes time, in which slices run.
+// Setting up a card for another driver takes virtual time; the machine's slices continue meanwhile.
 #pragma once
 
 #include <functional>
@@ -26,19 +26,19 @@ class AxisHandover {
     /// Both must outlive this.
     AxisHandover(rack::Rack& rack, ProgramRun& programs) : rack_(rack), programs_(programs) {}
 
-    /// Makes the executor of `programs`, which has the axes then. Errors: as Rack::path_axes.
+    /// Creates the executor of `programs` and gives it the axes. Errors: as Rack::path_axes.
     Result<void> start(const rack::RackConfig& config);
     /// Gives the axes to the executor, unless it has them. Errors: as Rack::path_axes.
     Result<void> take_group();
-    /// Returns an axis of the rack to be driven alone. Errors: as Card::axis.
+    /// Takes an axis from the executor and returns it for single-axis motion. Errors: as Card::axis.
     Result<control::Axis*> take_axis(char letter);
-    /// Records that another driver takes axes.
+    /// Records that another driver takes axes from the executor.
     void release() { group_holds_ = false; }
     /// Runs `set_up`, which sets up a card for another driver, and returns its result.
     Result<void> hand_over(const std::function<Result<void>()>& set_up);
     /// Gives the axes and the rack's stop flag back to the executor. Errors: as Rack::path_axes.
     Result<void> take_back();
-    /// Returns true while a card is being set up for another driver; its counters are meaningless.
+    /// Returns true while a card is being set up for another driver; the card's counters are meaningless then.
     bool in_progress() const { return in_progress_; }
 
   private:

@@ -4,7 +4,7 @@
 //   rack     ────┴─2 ms──────┴─2 ms──────┴──────►        too early: the motion thread waits;
 //                                                        late: it catches up, and the lateness is counted
 //
-// Beyond a lateness of `given_up` it does not catch up: the base moves, and the lost time is reported.
+// Beyond a lateness of `given_up` (250 ms) it does not catch up: both bases move, and the lost time is reported.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ namespace motionrack::operate {
 
 enum class ClockMode : std::uint8_t {
     real,         ///< `factor` seconds of virtual time per second
-    unthrottled,  ///< as fast as the computer can
-    paused        ///< stopped, except for steps
+    unthrottled,  ///< runs without pacing
+    paused        ///< virtual time advances only by step()
 };
 /// Returns "real", "unthrottled", "paused".
 std::string_view name_of(ClockMode mode);
@@ -40,16 +40,16 @@ class Lateness {
     Duration max_{0};
 };
 
-/// Only the motion thread uses it.
+/// Used only by the motion thread.
 class ClockPacer {
   public:
-    /// Factors must be 0.001 .. 1000.
+    /// `factor`: virtual seconds per real second in mode real, 0.001 .. 1000.
     ClockPacer(live::Clock& clock, ClockMode mode, double factor);
 
     /// Returns true if the rack may run on from `now`. Waits 5 ms at most.
     bool pace(Instant now);
 
-    /// Errors: invalid_input if a factor is out of range.
+    /// Sets mode and factor; ends a pending step. Errors: invalid_input if the factor is not 0.001 .. 1000.
     Result<void> set(ClockMode mode, double factor);
     /// Advances virtual time by this duration, as fast as possible. Errors: refused unless paused; invalid_input below
     /// 100 ps or above 3600 s.

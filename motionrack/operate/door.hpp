@@ -13,17 +13,17 @@ namespace motionrack::operate {
 
 class Door {
   public:
-    /// The rack must outlive this. The machine handles the rack's door itself from now on.
+    /// Excludes the door from the rack's stop latch, since the machine handles it. The rack must outlive this.
     explicit Door(rack::Rack& rack);
 
-    /// Refused while it is open: "The program was not started: the door is open. ..."
+    /// Refused while the door is open; `what` begins the message: "The program was not started: the door is open. ..."
     Result<void> check_closed(const char* what) const;
-    /// Returns the alarm if the door was opened since the last call, with the effect in this state. `held`: the feed of
-    /// a program is held, which a resume continues.
+    /// Returns the alarm text if the door was opened since the last call. It names the effect in this state. `held`: a
+    /// program is in feed hold because of the door or already before; a resume continues it.
     std::optional<std::string> take_opening(MachineState state, bool held);
-    /// Stores the present spindle and coolant states for resume().
+    /// Stores the spindle and coolant states of `status` for give_back_tools(), unless some are stored.
     void keep_tools(const Status& status);
-    /// Restores the stored states, once.
+    /// Restores the stored spindle and coolant states, once.
     void give_back_tools(Status& status);
     void forget_tools() { kept_.reset(); }
 

@@ -1,4 +1,4 @@
-// Instruments of a running rack.
+// Instruments of a running rack: the tap for its recorders, and the monitor of its grating bus.
 #pragma once
 
 #include <motionrack/rack/frame_monitor.hpp>
@@ -16,7 +16,7 @@ class Instruments {
         if (rack::grating_bus_of(rack) != nullptr) frames_.emplace(rack);
     }
 
-    /// For recorders of the running rack.
+    /// Tap to which recorders of the running rack are attached.
     rack::RecorderTap& tap() { return tap_; }
     /// Frames of the grating bus; nullptr: the rack has none.
     const rack::FrameMonitor* frames() const { return frames_ ? &*frames_ : nullptr; }

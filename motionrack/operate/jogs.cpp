@@ -56,7 +56,8 @@ bool Jogs::held(char letter) const {
 
 // ---- motion
 
-/// A jog that has ended by itself is not restarted by its lease: it is first checked, then renewed.
+/// Continues a jog by one step. Checks for its end before it renews the jog, so that a valid lease does not restart a
+/// jog that has ended by itself.
 std::optional<Jogs::Ended> Jogs::carry_on(Moving& one, Instant now, bool stop) {
     using control::AxisState;
     if (stop) one.axis->stop();
@@ -70,7 +71,7 @@ std::optional<Jogs::Ended> Jogs::carry_on(Moving& one, Instant now, bool stop) {
     return std::nullopt;
 }
 
-/// Taking an axis over takes time, in which a stop may come.
+/// Starts a requested jog. Checks for a stop after taking the axis, which takes virtual time.
 Result<void> Jogs::begin(const PendingJog& request, const Take& take, Instant now, const Stops& stops) {
     const bool leased = !request.distance;
     if (leased && request.speed != 0 && !held(request.letter)) return {};  // over before its start

@@ -44,15 +44,15 @@ class Jogs {
 
     /// Records the sequence number of a session's command. Refused if a newer one was received before.
     Result<void> see(const JogOrigin& origin);
-    /// Refused as for see(), and for a renewal of an ended jog.
+    /// Accepts a jog command for this axis. Refused as for see(), and for a renewal of an ended jog.
     Result<void> accept(char letter, const JogOrigin& origin);
-    /// Starts or continues a jog; a `speed` of 0 releases it.
+    /// Requests a jog at `speed` (per second; sign: direction) and renews its lease; a `speed` of 0 ends the jog.
     void hold(char letter, double speed, const std::string& session);
-    /// Jogs by a distance.
+    /// Requests a jog by `distance` (mm or degrees) at `speed` (per second), without a lease.
     void move(char letter, double distance, double speed);
     /// Ends the jogs of a closed session.
     void end_of(const std::string& session);
-    /// Drops commands and leases; step() ends the remaining motion.
+    /// Drops requests and leases; step() ends the motion that has a lease.
     void let_go();
 
     bool any() const { return !requests_.empty() || !moving_.empty(); }

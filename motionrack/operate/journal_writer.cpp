@@ -39,7 +39,7 @@ json axes_json(const std::vector<AxisStatus>& axes) {
     return out;
 }
 
-/// `text`: not empty.
+/// Ends `text` with a full stop, unless it has one. Requires a text that is not empty.
 std::string sentence(std::string text) {
     if (text.back() != '.') text += '.';
     return text;
@@ -172,7 +172,7 @@ void JournalWriter::see_positions(const Status& status) {
     }
 }
 
-/// Returns true if an axis has moved at standstill: a servo may be pushed, or settle late.
+/// Returns true if an axis has moved at standstill, as a servo does that is pushed or settles late.
 bool JournalWriter::has_shifted(const Status& status) const {
     const std::size_t count = std::min(status.axes.size(), kept_axes_.size());
     for (std::size_t i = 0; i < count; ++i)
@@ -201,7 +201,8 @@ json kept_of(const journal::LastRun& last) {
     return kept.is_object() ? kept : json::object();
 }
 
-/// Returns "; the machine's state was 'moving', 'part.ngc' ran and was at line 12, near X 3.000".
+/// Describes the end of an interrupted run: "; the machine's state was 'moving', 'part.ngc' ran and was at line 12,
+/// near X 3.000".
 std::string at_the_end(const json& kept, const std::string& where) {
     const auto text = [&](const char* key) {
         return kept.contains(key) && kept[key].is_string() ? kept[key].get<std::string>() : std::string();

@@ -16,14 +16,14 @@
 
 namespace motionrack::operate {
 
-/// Only the motion thread uses it; the journal must outlive the object.
+/// Used only by the motion thread. The journal must outlive this.
 class JournalWriter {
   public:
-    /// Also called with every entry. `data`: JSON.
+    /// Receives every entry, in addition to the journal. `data`: JSON.
     using Callback =
         std::function<void(Instant at, const std::string& kind, const std::string& text, const std::string& data)>;
     explicit JournalWriter(journal::Journal& journal) : JournalWriter(&journal, {}) {}
-    /// `journal` may be nullptr, `told` empty.
+    /// `journal` may be nullptr, `reported` empty.
     JournalWriter(journal::Journal* journal, Callback reported) : journal_(journal), reported_(std::move(reported)) {}
     /// Call with every status; writes its differences from the previous one.
     void see(const Status& status);
@@ -64,8 +64,8 @@ struct LastKnownPositions {
     /// Describes the end of an interrupted run, and problems of the journal; empty: a clean end.
     std::string sentence;
 };
-/// After an interrupted run no position is valid, nor is one with a wrong checksum. Axes without a record are left out;
-/// the others stay valid.
+/// Restores the axis positions that the last run has stored. After an interrupted run, or if the journal is damaged, no
+/// position is valid. After an intact run axes without a record are left out.
 LastKnownPositions read_last(const journal::LastRun& last, const rack::RackConfig& config);
 
 }  // namespace motionrack::operate

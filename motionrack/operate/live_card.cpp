@@ -1,4 +1,4 @@
-// Accesses, waits and the stop of a real card.
+// Register accesses of a real card, its waits and its stop.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ void LiveCard::write(std::uint32_t offset, std::uint16_t value) {
     lost_ = card_.port->trouble();
 }
 
-/// 0 is the value of an axis at standstill.
+/// Returns 0, the value of an axis at standstill, once the card is lost or an axis does not stop.
 std::uint16_t LiveCard::read(std::uint32_t offset) {
     if (lost_ || gives_up_) return 0;
     const std::uint16_t value = card_.registers->read(offset);
@@ -69,7 +69,7 @@ void LiveCard::out(std::uint8_t port, std::uint8_t value) {
     lost_ = card_.port->trouble();
 }
 
-/// 0 is a STAT that is not Ready, on which waits end by their time-out.
+/// Returns 0 once the card is lost or an axis does not stop: a STAT that is not Ready, so that waits time out.
 std::uint8_t LiveCard::in(std::uint8_t port) {
     if (lost_ || gives_up_) return 0;
     const std::uint8_t value = card_.bytes->in(port);

@@ -48,11 +48,11 @@ struct LiveRegisters {
 
 /// Result of a stop.
 struct LiveStop {
-    bool is_stationary = false;  ///< the axes were seen at standstill afterwards
+    bool is_stationary = false;  ///< the registers showed all axes at standstill afterwards
     std::string sentence;        ///< text of an alarm; empty: no alarm
 };
 
-/// Only the motion thread uses it.
+/// Used only by the motion thread.
 class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
   public:
     /// Opens the port and reads the registers; the rack must outlive the object. Errors: as live::open_card; io if the
@@ -74,7 +74,7 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     // ---- interface for the service
     /// Reads all registers now; writes the commands that reading takes, which move nothing.
     void poll();
-    /// Calls poll() if the card was last read half a second ago.
+    /// Calls poll() if the card was last read at least half a second ago.
     void look_now_and_then();
     const LiveRegisters& registers() const { return registers_; }
     const LivePlace& place() const { return place_; }
@@ -91,7 +91,7 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     rack::CardBus bus() { return {this, this, this, select_}; }
     Result<void> open_port();
     void keep_up();
-    /// As look_now_and_then(), while a function waits: reads what does not disturb it.
+    /// As look_now_and_then(), while a function waits: reads only the registers whose reading does not disturb it.
     void look_beside_function();
     bool is_look_due() const;
     void heed_stop();
@@ -107,8 +107,8 @@ class LiveCard final : public RegisterPort, public BytePort, public Interrupt {
     std::optional<live::LastStop> last_stop_;
     std::optional<Error> lost_;
     LiveRegisters registers_;
-    Instant polled_{};                ///< last poll, on this clock
-    Instant passed_{};                ///< instant of this clock up to which virtual time has followed
+    Instant polled_{};                ///< last poll, on clock_
+    Instant passed_{};                ///< instant of clock_ up to which virtual time has followed
     std::optional<Instant> stopped_;  ///< since when a function has waited with a stop in force
     int stop_waits_ = 0;              ///< waits since then
     bool gives_up_ = false;           ///< the wait was too long: an axis does not stop

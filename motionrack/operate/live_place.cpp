@@ -1,4 +1,4 @@
-// Checks which cards of a rack a real one may replace.
+// Checks whether a real card may replace a card of the rack.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Commands, and the states in which they are accepted.
+// Commands of a machine, and the states in which they are accepted.
 #include <fmt/format.h>
 
 #include <motionrack/operate/machine.hpp>

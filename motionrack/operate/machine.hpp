@@ -58,7 +58,7 @@ struct MachineSettings {
     std::function<void(const Status&)> on_status = {};  ///< every slice, on the motion thread
     std::function<void(const control::gcode::CanonCall&)> on_event = {};  ///< for each event of a program
     std::vector<InitialAxisState> initial_axes = {};  ///< axes with another position than the rack file's
-    std::string alarm = {};                           ///< initial alarm; empty: none
+    std::string alarm = {};                           ///< text of an initial alarm; empty: none
     std::vector<LivePlace> live = {};                 ///< cards replaced by real ones, in service only
     Duration slice = milliseconds(2);
     Duration quiet = milliseconds(20);  ///< pause after which a sender's input counts as complete
@@ -68,8 +68,8 @@ struct MachineSettings {
 class Machine {
   public:
     /// Builds and starts the rack. In a rack without home switches the axes start at the rack file's positions.
-    /// Otherwise their positions are not valid, except those in `standing`. A rack may have no axes: programs, lines
-    /// and jogs are refused then. Errors: as Rack::path_axes.
+    /// Otherwise their positions are not valid, except those in MachineSettings::initial_axes. A rack may have no axes:
+    /// programs, lines and jogs are refused then. Errors: as Rack::path_axes.
     static Result<std::unique_ptr<Machine>> make(const rack::RackConfig& config, MachineSettings settings);
     ~Machine();
 
@@ -108,7 +108,7 @@ class Machine {
     void reset(const StopOrigin& by = {});
     /// Switches the coolant immediately, otherwise like M7, M8 and M9. No effect while a stop is in force.
     void set_coolant(bool mist, bool flood);
-    /// As AlarmList::acknowledge.
+    /// Acknowledges an alarm, as AlarmList::acknowledge.
     bool acknowledge_alarm(std::int64_t alarm) { return alarms_.acknowledge(alarm); }
     /// Blocks starts because the machine's actions can no longer be recorded. Until the process restarts, no program,
     /// line or homing starts and nothing resumes. Motion decelerates, a program by a feed hold; jogs remain possible.
@@ -118,7 +118,7 @@ class Machine {
     // ---- queries, on the motion thread
     const Status& status() const { return publisher_.status(); }
     MachineState state() const { return publisher_.state(); }
-    /// For starts that are not commands of the machine.
+    /// Conditions for starts that are not commands of the machine, such as laser marking.
     const StartConditions& conditions() const { return conditions_; }
     /// Returns true if the position of this axis is valid.
     bool position_valid(const rack::RackAxis& axis) const { return validity_.of(axis.letter); }

@@ -1,4 +1,4 @@
-// Start of the machine.
+// Start of a machine: initial axis positions, executor, stop latch, initial alarm.
 #include <algorithm>
 #include <motionrack/operate/machine.hpp>
 
@@ -11,7 +11,7 @@ bool can_home(const rack::RackConfig& config) {
 
 namespace {
 
-/// Returns the initial state of an axis. `known`: the position cannot be found by homing.
+/// Returns the initial state of an axis: the reported one, or the rack file's position, which is valid if `known`.
 InitialAxisState standing_of(const rack::RackAxis& axis, const std::vector<InitialAxisState>& reported, bool known) {
     for (const InitialAxisState& one : reported)
         if (one.letter == axis.letter) return one;

@@ -22,7 +22,7 @@ ManualOperation::ManualOperation(const ManualParts& parts, ManualTimes times)
 
 namespace {
 
-/// Checks the speed at the command; the axis would reject it only at the start of the jog, after the answer.
+/// Checks the jog speed at the command; the axis would reject it only at the start of the jog, after the answer.
 Result<void> check_jog_speed(const rack::RackAxis& axis, double speed) {
     if (std::fabs(speed) <= axis.max_velocity) return {};
     return fail(

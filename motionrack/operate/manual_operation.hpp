@@ -46,19 +46,19 @@ class ManualOperation {
     ManualOperation(const ManualParts& parts, ManualTimes times);
 
     // ---- commands; refused ones (ErrorKind::refused) change nothing
-    /// Jogs at `speed` per second (sign: direction; 0 releases) while it is called again within the lease, to the end
-    /// of the travel at most. Also refused: a command older than another one of its session, and a renewal of an ended
-    /// jog.
+    /// Jogs at `speed` (mm/s or degrees/s; sign: direction; 0 ends the jog) while it is called again within the lease,
+    /// to the end of the travel at most. Also refused: a command older than another one of its session, and a renewal
+    /// of an ended jog.
     Result<void> jog(char axis, double speed, const JogOrigin& origin = {});
-    /// Jogs by a distance.
+    /// Jogs by `distance` (mm or degrees) at `speed` (mm/s or degrees/s).
     Result<void> jog_by(char axis, double distance, double speed);
-    /// Jogs along a straight line in machine coordinates at `speed` along it, after the running jogs of this kind;
-    /// Machine::cancel ends them. Modal state is unchanged. Errors: refused, also outside the travel; invalid_input for
-    /// an unknown axis or a missing speed.
+    /// Jogs along a straight line in machine coordinates at the path velocity `speed` (per second), after earlier jogs
+    /// of this kind; Machine::cancel ends them. Modal state is unchanged. Errors: refused, also outside the travel;
+    /// invalid_input for an unknown axis or a missing speed.
     Result<void> jog_to(const control::Point& target, double speed);
     /// Homes these axes; empty: all axes with a home switch.
     Result<void> home(std::string axes);
-    /// Sets the position of an axis, which is valid then. Refused while something moves.
+    /// Sets the position of an axis (mm or degrees) and makes it valid. Refused while something moves.
     Result<void> set_position(char axis, double position);
 
     // ---- queries
@@ -69,13 +69,13 @@ class ManualOperation {
     bool wants_homing() const { return home_wanted_.has_value(); }
 
     // ---- steps, for the loop of Machine
-    /// Moves the jogging axes on for a slice. `failed` is called with each failure that ends all motion.
+    /// Continues all jogs by one slice. `failed` is called with each failure that ends all motion.
     void step_jogs(const std::function<void(const Error&)>& failed);
-    /// Homes the requested axes, to the end. Errors: a failure that ends all motion.
+    /// Homes the requested axes; returns when homing has ended. Errors: a failure that ends all motion.
     Result<void> step_homing();
     /// Drops the requests, and ends homing and jogs.
     void cancel();
-    /// Everything stands: homing may begin again.
+    /// Permits homing again after cancel(). Call at standstill.
     void end_stop() { home_stop_ = false; }
 
   private:

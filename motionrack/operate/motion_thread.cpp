@@ -14,7 +14,8 @@ void Machine::run() {
     publisher_.publish();  // includes the final positions
 }
 
-/// Runs between two runs of the kernel, possibly in the middle of a motion.
+/// Executes one slice: pacing, inbox, stops, status. Called between two runs of the kernel, possibly in the middle of a
+/// motion.
 void Machine::slice() {
     bool on = false;
     while (!on) {
@@ -32,7 +33,7 @@ void Machine::slice() {
     }
 }
 
-/// Called in every slice, in any state.
+/// Handles openings of the door, alarms of the emergency stop, and a new stop of the stop latch. Called in every slice.
 void Machine::take_stop() {
     rack::StopLatch& latch = rack_.stop_latch();
     latch.poll();
@@ -54,12 +55,12 @@ void Machine::take_stop() {
 
 namespace {
 
-/// A commanded stop needs no alarm.
+/// Returns the cause of the stop as alarm source; empty for a commanded stop, which needs no alarm.
 std::string alarm_source(const rack::StopLatch& latch) {
     return latch.is_ordered() ? std::string() : std::string(rack::name_of(latch.cause()));
 }
 
-/// An axis left without a position by homing or by its own card reports that itself.
+/// Returns true if the text already reports a lost position, as texts of homing and of cards do.
 bool says_lost(const std::string& text) {
     const std::size_t at = text.find(" not valid");
     return at != std::string::npos && text.rfind("position", at) != std::string::npos;
@@ -103,8 +104,8 @@ void Machine::step() {
     host_of(rack_).pass(settings_.slice);
 }
 
-/// Enters the error stop at standstill. Without a source no alarm is raised unless a position was lost, since the stop
-/// was commanded.
+/// Enters the error stop at standstill. An empty `source` means a commanded stop, which raises an alarm only if a
+/// position was lost.
 void Machine::enter_error_stop(std::string source, std::string text) {
     rack::StopLatch& latch = rack_.stop_latch();
     std::string lost;

@@ -10,22 +10,22 @@ namespace motionrack::operate {
 /// Used only by the motion thread.
 class PendingStop {
   public:
-    /// `at_rest`: nothing was moving or pending, so that it comes before anything that is commanded after it.
+    /// Requests a stop. `at_rest`: nothing was moving or pending, so that the stop precedes all later commands.
     void request(bool at_rest) {
         wanted_ = true;
         at_rest_ = at_rest;
     }
     /// Requests a stop because of a failure, in the order of the present stop, if any.
     void request() { wanted_ = true; }
-    /// `trips`: StopLatch::trips() at the command.
+    /// Requests a reset. `trips`: StopLatch::trips() at the command.
     void request_reset(std::uint64_t trips) { reset_ = trips; }
 
     bool wanted() const { return wanted_; }
     bool comes_first() const { return wanted_ && at_rest_; }
     bool wants_reset() const { return reset_.has_value(); }
-    /// The stop is carried out.
+    /// Ends the stop request, after the stop was executed.
     void end() { wanted_ = at_rest_ = false; }
-    /// Ends the reset. Returns true if one was commanded and the stop latch has not tripped since.
+    /// Ends the reset request. Returns true if a reset was requested and the stop latch has not tripped since.
     bool take_reset(std::uint64_t trips) { return std::exchange(reset_, std::nullopt) == trips; }
 
   private:

@@ -16,11 +16,11 @@ class PositionSetter {
     PositionSetter(PositionValidity& validity, AxisHandover& handover, StatusPublisher& publisher, AlarmList& alarms)
         : validity_(validity), handover_(handover), publisher_(publisher), alarms_(alarms) {}
 
-    /// Requests that the axis gets this position, which is the one at the command.
+    /// Requests that the position of the axis at this instant be `position` (mm or degrees).
     void request(char letter, double position) { pending_.push_back(validity_.declared(letter, position)); }
     bool any() const { return !pending_.empty(); }
-    /// Sets the positions, and gives the axes back to the executor. A position that was not set is the status' reason;
-    /// if it was valid before, it also raises an alarm. Errors: as AxisHandover::take_group.
+    /// Sets the requested positions, and gives the axes back to the executor. A failure becomes the status' reason; if
+    /// the position was valid before, it is invalidated with an alarm. Errors: as AxisHandover::take_group.
     Result<void> step();
 
   private:

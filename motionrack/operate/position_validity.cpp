@@ -11,7 +11,7 @@ namespace {
 
 /// Delay after which the effect of an immediate stop on a fast motor shows.
 constexpr Duration poll_period = milliseconds(20);
-/// More would not help a servo that is pushed each time.
+/// Limit of attempts to set a position, for a servo that is pushed during each attempt.
 constexpr int max_takes = 3;
 
 }  // namespace
@@ -32,7 +32,7 @@ void PositionValidity::begin(char letter, const rack::ValidityWatch::Mark& from)
     watch_.begin(number(letter), from);
 }
 
-/// A servo may be pushed before its card has taken the position over, which takes it some milliseconds.
+/// Sets the position again if a servo was pushed meanwhile: its card needs some milliseconds to take it over.
 Result<void> PositionValidity::take(control::Axis& axis, const Declared& declared) {
     const auto moved = [&] { return watch_.moved_since(number(declared.letter), declared.stood); };
     for (int i = 0; i < max_takes; ++i) {
@@ -48,7 +48,7 @@ void PositionValidity::begin_at_home(char letter, Instant since) {
     begin(letter, {since, watch_.mark(number(letter)).lost_pulses});
 }
 
-/// The counters of a reset card are meaningless immediately. During a stop, the stop's own alarm reports this.
+/// Invalidates the axes of a card that its watchdog has restarted. During a stop, the stop's own alarm reports this.
 void PositionValidity::invalidate_reset(bool comes_to_rest, std::vector<Alarm>& out) {
     const rack::StopLatch& latch = rack_.stop_latch();
     if (std::exchange(trips_, latch.trips()) == latch.trips() || !latch.tripped_by(rack::StopSource::watchdog)) return;
@@ -64,7 +64,7 @@ void PositionValidity::invalidate_reset(bool comes_to_rest, std::vector<Alarm>& 
     }
 }
 
-/// During homing positions are not known yet; during a stop, the stop's own alarm reports the losses.
+/// Reports nothing during homing, before positions are known, or during a stop, whose own alarm reports the losses.
 std::vector<Alarm> PositionValidity::poll(Instant now, MachineState state) {
     std::vector<Alarm> out;
     if (state == MachineState::homing || now < due_) return out;

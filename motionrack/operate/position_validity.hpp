@@ -11,14 +11,14 @@
 
 namespace motionrack::operate {
 
-/// A set position of an axis; its card takes it over slightly later.
+/// A position commanded for an axis (mm or degrees); its card takes it over some milliseconds later.
 struct Declared {
     char letter = 'X';
     double position = 0;
-    rack::ValidityWatch::Mark stood;  ///< state at the command
+    rack::ValidityWatch::Mark stood;  ///< counters and losses at the command
 };
 
-/// Identifies axes of the rack by letter.
+/// Validity of the position of each axis, by letter.
 class PositionValidity {
   public:
     /// All positions start as invalid. The rack must outlive this.
@@ -27,8 +27,8 @@ class PositionValidity {
     bool of(char letter) const { return valid_[index(letter)]; }
     void invalidate(char letter) { valid_[index(letter)] = false; }
     Declared declared(char letter, double position) const { return {letter, position, watch_.mark(number(letter))}; }
-    /// Makes a set position valid, less any loss since the command, plus the motion of a pushed servo. Errors: as
-    /// Axis::set_position.
+    /// Sets the declared position, corrected by the motion of a pushed servo since the command, and makes it valid. The
+    /// next poll() reports pulses lost since then. Errors: as Axis::set_position.
     Result<void> take(control::Axis& axis, const Declared& declared);
     /// Makes the position of a homed axis valid from `since`.
     void begin_at_home(char letter, Instant since);

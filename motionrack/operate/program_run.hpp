@@ -1,4 +1,4 @@
-// Programs and single lines of an operated machine: the executor, what it is fed, and the operator's settings for it.
+// Programs and single lines of an operated machine: the executor, its pending lines, and the operator's settings.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,20 @@ namespace motionrack::operate {
 /// Used only by the motion thread.
 class ProgramRun {
   public:
-    /// Makes the executor. Call first, once.
+    /// Creates the executor. Call once, before all other functions.
     void start(control::AxisGroup& axes, Interrupt& host, const control::StreamExecutorSettings& settings);
     control::StreamExecutor& stream() { return *stream_; }
     const control::StreamExecutor& stream() const { return *stream_; }
 
     // ---- a whole program, for Machine
-    /// Checks it, then begins it. Errors: invalid_input: its first problem with line and column.
+    /// Checks a whole program, then starts it. Errors: invalid_input: its first problem with line and column.
     Result<void> begin(std::string text, std::string name);
-    /// Feeds its lines while the executor has room. Errors: a line cannot be executed.
+    /// Feeds lines of the program while the executor has room. Errors: a line cannot be executed.
     control::gcode::Outcome<void> feed();
-    /// Returns true until its last line was fed.
+    /// Returns true until the last line of the program was fed.
     bool has_lines() const { return feed_.has_value(); }
     bool runs() const { return runs_; }
-    /// Ends a program whose lines are all executed, if there is one.
+    /// Ends the program, if one runs. Call when all its lines are executed.
     void end();
     /// Drops the lines that were not fed yet.
     void drop();
@@ -42,7 +42,7 @@ class ProgramRun {
     control::gcode::Outcome<void> line(std::string_view text, std::int32_t number, Instant now);
     /// Queues a move that does not come from a line.
     void move(const control::Move& move, Instant now);
-    /// Returns true if lines may follow soon: of a program, or of a sender that has paused for less than `quiet`.
+    /// Returns true if lines may follow soon: of a program, or of a sender whose last line is less than `quiet` ago.
     bool more_may_come(Instant now, Duration quiet) const;
 
     // ---- settings, also from clients

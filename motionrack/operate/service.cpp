@@ -11,7 +11,7 @@ namespace motionrack::operate {
 namespace {
 
 constexpr Duration look_at_stop_every = milliseconds(1);
-/// Limit of the polls after a stop; pulses end with the command.
+/// Limit of the polls for standstill after a stop; pulses end with the stop command.
 constexpr int max_looks = 100;
 
 }  // namespace
@@ -117,7 +117,7 @@ void Service::step() {
     if (stop_) finish();
 }
 
-/// Takes the card from the controller. Its positions of these axes are invalid from here on, in any case.
+/// Takes the card from the controller. The positions of the card's axes are invalid from here on, even on an error.
 void Service::take() {
     rack::Card& card = *machine_.rack_.card(card_);
     std::string lost;

@@ -24,7 +24,8 @@ namespace motionrack::operate {
 
 class Machine;
 
-/// Functions of a card's library. Errors: invalid_input, listing the available cards; refused if it has no library.
+/// Returns the functions of a card's library. Errors: invalid_input, listing the available cards; refused if the card
+/// has no library.
 Result<std::span<const FunctionInfo>> library_of(rack::Rack& rack, const std::string& card);
 
 /// Stops all motion that the functions of a library have started, and waits for its standstill.
@@ -71,9 +72,9 @@ class Service {
     const LivePlace* live_place(std::string_view card) const;
     /// Real card in service; nullptr: none.
     const LiveCard* live() const { return live_.get(); }
-    /// Returns once, with a leading blank, the loss caused by the last service.
+    /// Returns and clears the sentence about the last service's end or failed start, with a leading blank.
     std::string take_note() { return std::exchange(note_, {}); }
-    /// One iteration of the loop while the service is active.
+    /// Executes one iteration of the machine's loop while the service is active.
     void step();
 
     /// Letters of the machine's axes that the card moves.

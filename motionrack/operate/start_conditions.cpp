@@ -1,4 +1,4 @@
-// Checks before a start, and their sentences.
+// Checks before a start, and the messages of their refusals.
 #include <fmt/format.h>
 
 #include <motionrack/operate/axis_enables.hpp>

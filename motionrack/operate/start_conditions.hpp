@@ -22,14 +22,14 @@ class PositionValidity;
 class Service;
 class StatusPublisher;
 
-/// Errors: invalid_input, with a message that `what` was not done.
+/// Returns the axis with this letter. Errors: invalid_input if the machine has no such axis; `what` begins the message.
 Result<const rack::RackAxis*> axis_named(const rack::RackConfig& config, const char* what, char letter);
 
-/// Used only by the motion thread. `what`: the begin of a refusal: "Not homed". All errors are
+/// Used only by the motion thread. `what`: first words of the error message, "Not homed". All errors are
 /// ErrorKind::refused.
 class StartConditions {
   public:
-    /// What the conditions depend on; all of it must outlive this.
+    /// Parts of the machine that the conditions read; they must outlive this.
     struct ConditionSources {
         rack::Rack& rack;
         const StatusPublisher& publisher;
@@ -56,12 +56,12 @@ class StartConditions {
     Result<void> has_axes(const char* what) const;
     /// Requires standstill and an enabled machine.
     Result<void> ready(const char* what) const;
-    /// Requires that these axes are enabled and stay so, without a pending set position, which applies to the position
-    /// at its command.
+    /// Requires that these axes are enabled and stay so, and that no set position is pending, since it applies to the
+    /// axis position at its command.
     Result<void> axes_may_move(const char* what, std::string_view axes) const;
-    /// Requires also that every axis is enabled and has a valid position.
+    /// Requires ready(), a closed door, and that every axis is enabled and has a valid position.
     Result<void> ready_for_lines(const char* what) const;
-    /// Returns true while a stop, a reset or a set position is pending.
+    /// Returns true while a stop or a set position is pending.
     bool has_pending() const;
 
   private:

@@ -1,4 +1,4 @@
-// Names of the states.
+// Names of the machine states.
 #include <motionrack/operate/status.hpp>
 
 namespace motionrack::operate {

@@ -1,4 +1,4 @@
-// Parts of a status, and calls of the listeners.
+// Collects the parts of a status and calls the listeners.
 #include <motionrack/operate/axis_enables.hpp>
 #include <motionrack/operate/position_validity.hpp>
 #include <motionrack/operate/program_run.hpp>

@@ -1,4 +1,4 @@
-// Status of an operated machine, and those who follow it.
+// Status of an operated machine, and its listeners.
 //
 //   commands, motion ──► state, reason, alarms, homing, tools: at once ──┐
 //   axes, program, service ──publish: every slice────────────────────────┴──► Status ──► listeners, in their order
@@ -32,17 +32,17 @@ class StatusPublisher {
     };
     /// `first`: called before all listeners; may be empty.
     StatusPublisher(const StatusSources& sources, std::function<void(const Status&)> first);
-    /// As Machine::listen.
+    /// Adds listeners, as Machine::listen.
     void listen(std::function<void(const Status&)> call, std::function<void(const StopReport&)> on_stop);
 
     const Status& status() const { return status_; }
     Status& status() { return status_; }
-    /// Present state; that of the status is the one at its instant.
+    /// Present state; status().state is the one at the last publish().
     MachineState state() const { return state_; }
     void enter(MachineState state, std::string reason = {});
 
     // ---- spindle and coolant
-    /// Follows an event of a program.
+    /// Updates spindle and coolant from an event of a program.
     void pass_event(const control::gcode::CanonCall& event);
     void set_coolant(bool mist, bool flood);
     void tools_off();

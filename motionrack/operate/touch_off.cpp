@@ -1,4 +1,4 @@
-// Touch off.
+// Touch off: sets a work offset at the present position.
 #include <fmt/format.h>
 
 #include <cmath>
