@@ -1,4 +1,4 @@
-// Answers as JSON.
+// Converts answers, errors and events to JSON.
 #include <motionrack/panel/answer.hpp>
 
 namespace motionrack::panel {

@@ -24,13 +24,13 @@ struct Answer {
     nlohmann::json body;  ///< {"done":true, ...} or {"error":{"kind","message","line","column"}}
 };
 
-/// Returns {"done":true} and the members of `fields`.
+/// Returns an answer of status 200: {"done":true} and the members of `fields`.
 Answer done(nlohmann::json fields = nlohmann::json::object());
-/// `kind`: invalid_input, refused, denied, machine, io, limit.
+/// Returns an answer with this HTTP status and error. `kind`: invalid_input, refused, denied, machine, io, limit.
 Answer refused_answer(int status, std::string_view kind, std::string message);
 Answer error_answer(const Error& error);
 
-/// An event, sent to all observers.
+/// An event of the machine or the panel, sent to all connected clients.
 struct Event {
     std::int64_t number = 0;  ///< starts at 1
     Instant at{};

@@ -1,4 +1,4 @@
-// A thread for long work without the rack: planning, encoding, reading the journal.
+// A thread for long work that does not access the rack: planning, encoding, reading the journal.
 #pragma once
 
 #include <condition_variable>
@@ -26,7 +26,7 @@ class BackgroundWorker {
     BackgroundWorker(const BackgroundWorker&) = delete;
     BackgroundWorker& operator=(const BackgroundWorker&) = delete;
 
-    /// May be called from any thread; never waits. Returns false, without accepting `work`, if too much is pending.
+    /// Queues `work`; any thread, never waits. Returns false, without accepting `work`, if max_waiting are queued.
     bool post(std::function<void()> work) {
         {
             const std::lock_guard<std::mutex> alone(lock_);

@@ -1,4 +1,4 @@
-// A card of any type as JSON.
+// Describes a card of any type as JSON.
 #include <fmt/format.h>
 
 #include <algorithm>

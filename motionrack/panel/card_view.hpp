@@ -7,15 +7,17 @@
 
 namespace motionrack::panel {
 
-/// Constant data: registers, fields, commands, states, pins, names of values. For a card replaced by a real one: the
-/// address of the real card, and no data specific to the virtual one.
+/// Returns a card's constant data: registers, fields, commands, states, pins, names of values. For a card replaced by a
+/// real one: the address of the real card, and no data specific to the virtual one.
 nlohmann::json card_facts(operate::Machine& machine, const rack::Card& card);
-/// Registers with their words, fields with their values, values, pins with their levels. Call on the motion thread,
+/// Returns a card's present state: registers, fields, values and pins with their levels. Call on the motion thread,
 /// between runs. For a real card: as last read by its service, or the reason why nothing was read.
 nlohmann::json card_now(operate::Machine& machine, rack::Card& card);
-/// Slope table of a databoard4002 as diagrams of velocity over distance. Errors: invalid_input for another card.
+/// Returns the slope table of a DataBoard 4002 as diagrams of pulse rate (Hz) over distance (counts). Errors:
+/// invalid_input for another card.
 Result<nlohmann::json> slopes_now(rack::Rack& rack, const std::string& card);
-/// Frame contents of all grating-bus cards, and their agreement. Errors: refused if the rack has no such bus.
+/// Returns the latest frames of all grating-bus cards, and whether they agree. Errors: refused if the rack has no such
+/// bus.
 Result<nlohmann::json> frames_now(operate::Machine& machine);
 
 }  // namespace motionrack::panel

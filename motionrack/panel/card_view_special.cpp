@@ -14,7 +14,7 @@ namespace {
 
 namespace db = databoard4002;
 
-/// Intervals of one half as steps: Hz over the distance in counts.
+/// Returns one half of the slope table as a staircase: pulse rate in Hz over the distance in counts.
 json half_of(const char* name, const db::SlopeTable& table, int first) {
     json points = json::array();
     std::int64_t from = 0;
@@ -31,7 +31,7 @@ json half_of(const char* name, const db::SlopeTable& table, int first) {
 
 constexpr std::size_t shown_scales = 32;
 
-/// Stages with a control loop. After a stop, a stage waits for a start command.
+/// Returns the stages that have a control loop, with their state. After a stop, a stage waits for a start command.
 json looped_stages(rack::Rack& rack) {
     const Instant now = rack.kernel().now();
     json out = json::array();

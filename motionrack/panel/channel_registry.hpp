@@ -20,7 +20,7 @@ namespace motionrack::panel {
 enum class ChannelReader : std::uint8_t {
     edges,    ///< a digital wire: a recording has every change
     anytime,  ///< also within a run of the kernel: reading does not allocate
-    slices    ///< between runs
+    slices    ///< only between two runs of the kernel, once per slice
 };
 std::string_view name_of(ChannelReader reader);
 
@@ -32,10 +32,10 @@ struct LiveChannel {
     std::function<double()> read;  ///< on the motion thread; without side effects
 };
 
-/// Returns "c1" for "c1.x.LP".
+/// Returns the card's name in a channel name: "c1" for "c1.x.LP".
 std::string_view card_part(std::string_view name);
 
-/// Names under which a card's inspect() knows a register: one name, or one per channel.
+/// Returns the names under which a card's inspect() knows a register: one name, or one per channel.
 std::vector<std::string> register_names(const rack::CardType& type, const RegisterInfo& reg);
 
 class ChannelRegistry {
@@ -45,9 +45,10 @@ class ChannelRegistry {
 
     /// All channels by name.
     const std::map<std::string, LiveChannel, std::less<>>& all() const { return channels_; }
-    /// Returns nullptr if the channel is unknown.
+    /// Finds a channel by name; returns nullptr if it is unknown.
     const LiveChannel* find(std::string_view name) const;
-    /// Errors: invalid_input with the unknown name, or for more than Panel::max_channels.
+    /// Returns the set of these channels; equal lists share one. Errors: invalid_input with the unknown name, or for
+    /// more than Panel::max_channels.
     Result<std::shared_ptr<ChannelSet>> set_of(const std::vector<std::string>& names);
     /// Reads the channels of each set in use and shows the values to its clients; removes the other sets.
     void show(std::int64_t sequence, Instant at);

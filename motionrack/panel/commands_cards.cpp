@@ -30,7 +30,7 @@ Result<json> set_wire(PanelContext& context, const json& fields) {
         name, value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>()));
 }
 
-/// The button of the page acts in series with the machine's own contacts.
+/// Presses or releases the page's emergency-stop button, which is in series with the machine's own contacts.
 Result<json> set_estop(PanelContext& context, bool pressed) {
     rack::SafetyContacts& contacts = context.machine.rack().stop_latch().contacts();
     contacts.press(pressed);

@@ -19,7 +19,7 @@ namespace {
 
 using Commands = std::vector<rtc5::Command>;
 
-/// Lists for the card.
+/// Command lists made from a marking job, for the card.
 struct Lists {
     std::shared_ptr<const rtc5::Table> table;
     Commands main;
@@ -29,7 +29,7 @@ struct Lists {
     std::vector<std::string> notes;
 };
 
-/// Replaces the job's optics, laser and belt by the rack's, which are more accurate.
+/// Replaces the job's optics, lens and belt by those of the rack file, which describe the machine.
 void as_the_rack_has_it(mark::MarkingJob& job, const rack::RackConfig& config, const std::string& card) {
     for (const rack::RackScanner& scanner : config.scanners) {
         if (scanner.card != card) continue;
@@ -48,7 +48,7 @@ void as_the_rack_has_it(mark::MarkingJob& job, const rack::RackConfig& config, c
     }
 }
 
-/// Runs in the worker.
+/// Makes the card's lists from the text of a job; runs in the worker.
 Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, const std::string& text,
                        const std::string& drawing, bool on_parts) {
     mark::JobRead read = mark::read_job(text, "job");
@@ -82,11 +82,11 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
 /// A mark command while its list is made in the worker.
 struct MarkCommand {
     std::string card, session;
-    std::uint64_t stops = 0;       ///< StopLatch::trips()
-    std::uint64_t mark_stops = 0;  ///< PanelContext::mark_stops
+    std::uint64_t stops = 0;       ///< StopLatch::trips() at the command
+    std::uint64_t mark_stops = 0;  ///< PanelContext::mark_stops at the command
 };
 
-/// Refuses a command that something has ended since it was given.
+/// Refuses a mark command if a stop, a mark_stop or a loss of control came after it.
 Result<void> check_still_wanted(PanelContext& context, const MarkCommand& command) {
     MOTIONRACK_CHECK(context.machine.conditions().may_begin("Not marked"));
     const auto refuse = [](const char* why) {
@@ -100,7 +100,7 @@ Result<void> check_still_wanted(PanelContext& context, const MarkCommand& comman
     return {};
 }
 
-/// Call on the motion thread, between runs.
+/// Loads the lists into the card and starts or arms them. Call on the motion thread, between runs.
 Result<json> begin_marking(PanelContext& context, const MarkCommand& command, const Lists& lists) {
     MOTIONRACK_CHECK(check_still_wanted(context, command));
     const std::string& card = command.card;
@@ -153,7 +153,7 @@ void mark(PanelContext& context, const Caller& caller, const json& fields, Ready
     });
 }
 
-/// Blocks further starts and ends the running list.
+/// Executes mark_stop: blocks further list starts and ends the running list.
 Result<json> stop(PanelContext& context, const json& fields) {
     const auto& card = fields.at("card").get_ref<const std::string&>();
     MOTIONRACK_CHECK(check_card(context, card));

@@ -10,7 +10,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Reader state of a program that starts now.
+/// Initial G-code settings and acceleration reserve of a program that starts now.
 struct Reading {
     control::gcode::Settings settings;
     double accel_reserve = 0;
@@ -19,7 +19,7 @@ Reading reading_of(PanelContext& context) {
     return {context.machine.stream().fresh_settings(), rack::accel_reserve_of(context.machine.rack())};
 }
 
-/// The plan is ready slightly after the start of motion.
+/// Plans the started program in the worker; the plan is ready slightly after the start of motion.
 void plan_aside(PanelContext& context, const Reading& reading, std::string text, std::string name) {
     context.plan.reset();
     context.worker.post(

@@ -1,4 +1,4 @@
-// Checks input against the specs: unknown names, missing and wrong fields, each with a sentence.
+// Checks requests against the operation specs: unknown, missing and wrong fields, each with a message.
 #include <fmt/format.h>
 
 #include <charconv>

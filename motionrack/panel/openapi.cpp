@@ -1,4 +1,4 @@
-// The operation specs as OpenAPI 3.0 and as a page.
+// Writes the operation specs as an OpenAPI 3.0 description and as a Markdown page.
 #include <fmt/format.h>
 
 #include <motionrack/panel/answer.hpp>

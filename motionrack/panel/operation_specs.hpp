@@ -49,11 +49,12 @@ std::span<const OperationSpec> commands();
 std::span<const OperationSpec> queries();
 /// Searches both tables; returns nullptr if the name is unknown.
 const OperationSpec* find_row(std::string_view name);
-/// Sentence about a name that find_row does not know; names the present name of a former one. `kind`: "command",
-/// "query".
+/// Returns a message about a name that find_row does not know; it gives the present name of a renamed operation.
+/// `kind`: "command", "query".
 std::string unknown_operation(std::string_view kind, std::string_view name);
 
-/// Errors: invalid_input if `fields` is not an object, or a field is unknown, missing or wrong; a sentence names it.
+/// Checks the fields of a request against its spec. Errors: invalid_input if `fields` is not an object, or names the
+/// field that is unknown, missing or wrong.
 Result<void> check_fields(const OperationSpec& row, const nlohmann::json& fields);
 
 /// Converts a query's texts (HTTP) to fields: numbers and flags by their specs. Errors: invalid_input.

@@ -29,7 +29,7 @@ std::string session_mark(std::string_view session) {
     return fmt::format("{:016x}", fnv_of(session));
 }
 
-/// Part of the panel on the motion thread.
+/// The part of the panel that runs on the motion thread.
 class Panel::Inside {
   public:
     Inside(Panel& panel, operate::Machine& machine, auth::ControlLease& lease, PanelSettings settings)
@@ -115,7 +115,8 @@ class Panel::Inside {
         reported_ = first + all.size();
     }
 
-    /// Executed commands become events; their answer waits for the journal.
+    /// Answers a query or a failed command immediately. An executed command becomes an event, and its answer waits for
+    /// its journal entry.
     void finish(const OperationSpec& row, const Caller& caller, const json& fields, const Reply& reply,
                 Result<json> result) {
         if (!result) return reply(error_answer(result.error()));
@@ -129,8 +130,8 @@ class Panel::Inside {
              }});
     }
 
-    /// Commands enter the journal after their effects on the machine, so that the next run knows everything that was
-    /// answered.
+    /// Writes executed commands to the journal after their effects on the machine, so that the next run knows
+    /// everything that was answered.
     void answer_orders() {
         for (Taken& one : std::exchange(taken_, {})) {
             // A stop has an entry already; a second one would let strangers fill the journal.

@@ -48,7 +48,7 @@ class ChannelSet {
   public:
     explicit ChannelSet(std::vector<std::string> names) : names_(std::move(names)) {}
     const std::vector<std::string>& names() const { return names_; }
-    /// May be called from any thread, cheap; nullptr before the first values after its creation.
+    /// Returns the newest values; nullptr before the first ones. Any thread, never waits.
     std::shared_ptr<const Values> newest() const { return std::atomic_load(&values_); }
     void show(std::shared_ptr<const Values> values) { std::atomic_store(&values_, std::move(values)); }
 
@@ -57,7 +57,7 @@ class ChannelSet {
     std::shared_ptr<const Values> values_;
 };
 
-/// Public mark of a session; it reveals nothing that would grant access.
+/// Returns a public identifier of a session, which grants no access.
 std::string session_mark(std::string_view session);
 
 class Panel {
@@ -69,23 +69,23 @@ class Panel {
     ~Panel();
 
     // ---- any thread
-    /// `name`: a command or query of the specs. `reply` is called once, on any thread, when the command's journal entry
-    /// is safe.
+    /// Executes a command or query of the specs. `reply` is called once, on any thread; for a recorded command when its
+    /// journal entry is on disk.
     void ask(const Caller& caller, std::string_view name, const nlohmann::json& fields,
              std::function<void(Answer)> reply);
-    /// STOP by any caller; never waits.
+    /// Commands a STOP for any caller, whatever the role; never waits.
     void stop(const Caller& caller);
-    /// Handles the end of this session's connection, and ends the motion that needs its renewals.
+    /// Handles the end of this session's connection: ends its jogs and its service.
     void left(std::string session);
     /// Returns the set of these channels; equal lists share one. `ready` is called once, on the motion thread. Errors:
     /// invalid_input for unknown names or more than max_channels.
     void subscribe(std::vector<std::string> channels, std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready);
     /// Newest status of the machine; never nullptr.
     std::shared_ptr<const StatusSnapshot> picture() const { return std::atomic_load(&picture_); }
-    /// Adds a listener for events; `call` is called on the motion thread and must not wait. Call before Machine::run.
+    /// Adds a listener for events, which is called on the motion thread and must not wait. Call before Machine::run.
     void on_event(std::function<void(const Event&)> call);
 
-    /// Operations available over HTTP, from the specs.
+    /// Returns the OpenAPI description of the operations, from the specs.
     static const nlohmann::json& openapi();
 
   private:

@@ -1,4 +1,4 @@
-// Shared functions of the commands.
+// Functions shared by the handlers of commands and queries.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/panel/panel_context.hpp>

@@ -18,7 +18,7 @@
 
 namespace motionrack::panel {
 
-/// Answers once; a reply that is destroyed unanswered reports that the machine is gone.
+/// Reply to a request: passes its first answer on. If it is destroyed unanswered, answers that the machine is gone.
 class Reply {
   public:
     explicit Reply(std::function<void(Answer)> call) : call_(std::make_shared<PendingCall>(std::move(call))) {}
@@ -37,7 +37,7 @@ class Reply {
     std::shared_ptr<PendingCall> call_;
 };
 
-/// Events since the start; only the most recent ones are stored.
+/// Log of events; stores the newest max_events.
 class EventLog {
   public:
     static constexpr std::size_t max_events = 1000;
@@ -51,7 +51,7 @@ class EventLog {
     std::vector<std::function<void(const Event&)>> listeners_;
 };
 
-/// Actual path of the machine in bounded memory; positions nearer than `apart` to the previous one are left out.
+/// Actual path of the machine: the newest max_points positions, each at least `apart` (mm) from the previous one.
 class ActualPath {
   public:
     static constexpr std::size_t max_points = 20'000;
@@ -88,7 +88,7 @@ struct PanelContext {
     ActualPath driven;
     std::shared_ptr<const ProgramPlan> plan;  ///< plan of the last started program; nullptr until it is ready
     std::uint64_t mark_stops = 0;             ///< mark_stop commands so far
-    std::int64_t programs = 0;                ///< programs started: number of the plan
+    std::int64_t programs = 0;                ///< number of programs started; identifies the plan
     std::string program;                      ///< text of the last started program
     std::string letters;                      ///< letters of the axes
     nlohmann::json facts;                     ///< constant data of the rack
@@ -102,7 +102,7 @@ struct PanelContext {
         });
         if (!taken) ready(fail(ErrorKind::refused, "The server is busy. Nothing was done. Try again later."));
     }
-    /// Overload for work whose result is the answer itself.
+    /// Overload for work whose result has the answer's members.
     void run_async(std::function<Result<nlohmann::json>()> work, std::function<void(Result<nlohmann::json>)> ready) {
         run_async<nlohmann::json>(std::move(work), std::move(ready));
     }
@@ -111,7 +111,7 @@ struct PanelContext {
 /// Handler of a command or query; returns the answer's members.
 using HandlerFunction = Result<nlohmann::json> (*)(PanelContext& context, const Caller& caller,
                                                    const nlohmann::json& fields);
-/// Handler that answers later.
+/// Callback of a handler that answers later, with the answer's members.
 using Ready = std::function<void(Result<nlohmann::json>)>;
 using AsyncHandlerFunction = void (*)(PanelContext& context, const Caller& caller, const nlohmann::json& fields,
                                       Ready ready);
@@ -130,10 +130,10 @@ std::span<const OperationHandler> mark_doers();
 std::span<const OperationHandler> looking_doers();
 /// Converts the result of a command whose answer has no members.
 Result<nlohmann::json> accepted(const Result<void>& result);
-/// Returns a number of the fields, or `otherwise` if it is missing.
+/// Returns the number in field `name`, or `otherwise` if the field is missing.
 double number_of(const nlohmann::json& fields, std::string_view name, double otherwise);
 
-/// Returns the axis letter in the field. Errors: invalid_input unless the rack has that axis.
+/// Returns the axis letter in the field "axis". Errors: invalid_input unless the rack has that axis.
 Result<char> axis_of(PanelContext& context, const nlohmann::json& fields);
 
 }  // namespace motionrack::panel

@@ -35,7 +35,7 @@ class Polyline {
         if (pending_) out.push_back(last_);
         return out;
     }
-    /// One of this number of points is stored.
+    /// Returns n if every n-th added point is stored; a power of two.
     std::size_t step() const { return step_; }
 
   private:

@@ -1,4 +1,4 @@
-// Dry run: the machine's reader and planner without execution.
+// Dry run of a program: reads and plans it as the machine does, without motion.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/geometry.hpp>
@@ -29,7 +29,7 @@ std::size_t axis_of(char letter) {
                                     control::axis_letters.begin());
 }
 
-/// Plans moves and sums up the results.
+/// Plans moves and sums up their durations, lengths and points.
 class Sums {
   public:
     Sums(ProgramPlan& plan, const control::gcode::Settings& settings, const control::MachineLimits& limits)

@@ -13,12 +13,12 @@ namespace motionrack::panel {
 struct ProgramPlan {
     std::string name;
     control::gcode::ProgramCheck check;
-    std::vector<PathPoint> path;        ///< reduced
-    std::size_t thinned = 1;            ///< one of this number of points is stored
+    std::vector<PathPoint> path;        ///< polyline of limited length, see `thinned`
+    std::size_t thinned = 1;            ///< every n-th point is stored; a power of two
     std::vector<float> seconds_before;  ///< by line, from the start of the program; as planned at 100 %
     double seconds = 0, path_mm = 0;
 
-    /// Seconds remaining at the start of `line`.
+    /// Returns the seconds from the start of `line` to the end of the program.
     double after(std::int32_t line) const;
 };
 

@@ -33,7 +33,7 @@ Result<json> card_of(PanelContext& context, const json& fields) {
     return card_now(context.machine, *card);
 }
 
-/// Planned and actual path as JSON.
+/// Returns the planned and the actual path as JSON.
 json path_json(const ProgramPlan* plan, const std::vector<ActualPath::ActualPoint>& driven, const std::string& letters,
                std::int64_t number) {
     json out = plan != nullptr ? to_json(*plan, letters) : json::object();
@@ -53,7 +53,8 @@ json path_json(const ProgramPlan* plan, const std::vector<ActualPath::ActualPoin
     return out;
 }
 
-/// Runs in the worker. `have`: number of the known plan; `since`: only later points of the actual path.
+/// Answers the query for the path; the worker writes the JSON. Fields: `have`, the number of the client's plan, which
+/// is not sent again; `since`, s: only later points of the actual path.
 void write_path(PanelContext& context, const json& fields, Ready ready) {
     const Instant since = from_seconds(number_of(fields, "since", -1));
     std::vector<ActualPath::ActualPoint> driven;
@@ -67,7 +68,7 @@ void write_path(PanelContext& context, const json& fields, Ready ready) {
         std::move(ready));
 }
 
-/// Waits until the worker has finished earlier work: the plan of a program that has just started.
+/// Answers the query for the path after the worker's earlier work, such as the plan of a program that has just started.
 void path_of(PanelContext& context, const json& fields, Ready ready) {
     context.run_async([]() -> Result<json> { return json(); },
                       [&context, fields, ready = std::move(ready)](Result<json> through) {

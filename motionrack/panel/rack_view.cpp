@@ -1,4 +1,4 @@
-// Parts, wires and work pieces.
+// Describes parts, wires and work pieces of a rack as JSON.
 #include <fmt/format.h>
 
 #include <cmath>

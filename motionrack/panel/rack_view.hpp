@@ -9,8 +9,8 @@ namespace motionrack::panel {
 
 nlohmann::json rack_facts(operate::Machine& machine);
 
-/// Work piece under a scan head, reduced to `max_kept` points. Errors: invalid_input, listing the scan heads. Call on
-/// the motion thread.
+/// Returns the work piece under a scan head, reduced to `max_kept` points. Errors: invalid_input, listing the scan
+/// heads. Call on the motion thread.
 Result<nlohmann::json> workpiece_now(operate::Machine& machine, const std::string& scanner, std::size_t max_kept);
 
 }  // namespace motionrack::panel

@@ -11,9 +11,10 @@ class RecordLoss {
     /// Call every slice. On the first failure of the journal: holds the machine, raises its alarm, and prevents cards
     /// from starting lists by themselves.
     void poll();
-    /// Errors: refused. Queries, stops, releases and jogs are accepted although they are not recorded.
+    /// Checks whether an operation is accepted after a journal failure. Queries, stops, releases and jogs are, although
+    /// they are not recorded. Errors: refused.
     Result<void> may(const OperationSpec& row) const;
-    /// Returns the answer to an accepted command whose journal entry is `kept`.
+    /// Returns the answer to an executed command. `kept`: number of its journal entry, or the error of writing it.
     static Answer answer(const OperationSpec& row, Answer answer, const Result<std::int64_t>& kept);
 
   private:

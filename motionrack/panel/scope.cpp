@@ -1,4 +1,4 @@
-// Collects data, detects the trigger, and extracts a capture.
+// Collects edges and samples, detects the trigger, and extracts a capture.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -39,8 +39,8 @@ struct ScopeSettings {
 struct ScopeTrace {
     std::string name, unit;
     bool edges = false;             ///< true: every change; false: samples
-    double before = 0;              ///< edges: level at the start of the capture
-    std::vector<double> at, value;  ///< edges: s from the trigger
+    double before = 0;              ///< edges only: level at the start of the capture
+    std::vector<double> at, value;  ///< `at`: s from the trigger; empty for samples
 };
 
 struct ScopeCapture {
@@ -60,7 +60,8 @@ class Scope {
     Scope(operate::Machine& machine, ChannelRegistry& channels);
     ~Scope();
 
-    /// Errors: invalid_input for an unknown channel or a trigger outside the channels; refused for too many samples.
+    /// Arms the scope. Errors: invalid_input for an unknown channel or a trigger outside the channels; refused for more
+    /// than max_samples.
     Result<void> arm(const ScopeSettings& settings);
     void stop();
     /// Call every slice of a running machine.

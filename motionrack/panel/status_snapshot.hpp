@@ -23,7 +23,7 @@ class StatusSnapshot {
     std::int64_t sequence() const { return status_.sequence; }
     Instant at() const { return status_.at; }
     const operate::Status& status() const { return status_; }
-    /// JSON text; encoded once, in the thread of the first caller.
+    /// Returns the status as JSON text; encodes it once, in the thread of the first caller.
     const std::string& status_text() const;
 
   private:

@@ -1,4 +1,4 @@
-// Data that the page always shows.
+// Writes the status that the page always shows.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/operate/clock_pacer.hpp>
@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Signals of an axis; switches are low while they act.
+/// Signals of an axis that the page shows as lamps; switches are low (0) while they act.
 constexpr rack::Lamp axis_lamps[] = {{"hard_minus", "limit_minus", 0},
                                      {"hard_plus", "limit_plus", 0},
                                      {"home", "home", 0},
@@ -47,7 +47,8 @@ json phases_of(const std::vector<control::AxisHomingState>& states) {
 
 namespace {
 
-/// In-position window. A servo settles within its position window; pulses and counts differ by rounding.
+/// Returns the in-position window, mm or degrees: a servo's position window, but at least two pulses or counts, since
+/// both are rounded.
 double near_of(const rack::RackAxis& axis) {
     const double counts = axis.counts_per_unit();
     const double rounding = 2 * std::max(1 / axis.pulses_per_unit(), counts > 0 ? 1 / counts : 0);
@@ -56,7 +57,7 @@ double near_of(const rack::RackAxis& axis) {
 
 }  // namespace
 
-/// Constant data.
+/// Data of the rack that is constant while it runs.
 struct StatusWriter::Facts {
     struct Axis {
         std::string unit;
