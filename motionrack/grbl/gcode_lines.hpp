@@ -22,9 +22,9 @@ class GcodeLines {
     const control::gcode::Interpreter& interpreter() const {
         return check_ ? *check_ : machine_.stream().interpreter();
     }
-    /// The motion mode in $G: N of GN. 80 after G80.
+    /// Returns the motion mode for $G: N of GN; 80 after G80; 0 before the first one, as in Grbl.
     int motion_mode() const;
-    /// N word of the line that is executed.
+    /// Returns the N word of the line being executed, if it has one.
     std::optional<std::int32_t> executed_n_word() const;
 
     /// Returns true if the machine accepts a line and a block is free.
@@ -33,11 +33,11 @@ class GcodeLines {
 
     bool is_checking() const { return check_.has_value(); }
     void begin_check();
-    /// Reads a line. Requires check mode.
+    /// Reads a line without executing it. Requires check mode.
     control::gcode::Outcome<void> check(const std::string& text) { return check_->line(text, 0); }
-    /// Gives a line to the machine, which starts in G0 like a Grbl.
+    /// Passes a line to the machine; sends G0 first if no motion mode is set, because a Grbl starts in G0.
     control::gcode::Outcome<void> execute(const std::string& text, std::int32_t n_word);
-    /// Call for each line that was accepted.
+    /// Notes whether the block sets a motion mode or G80. Call for each line that was accepted.
     void note_motion_mode(const control::gcode::Block& block);
 
     void drop_executed_n_words();

@@ -15,7 +15,7 @@ using operate::MachineState;
 
 namespace {
 
-/// Problems specific to the machine map to a lock.
+/// Returns N of "error:N" for a problem; problems that Grbl does not know map to error 9 (locked).
 int decimal_of(const Problem& problem) {
     return problem.status == GrblStatus::none ? int{error_locked} : static_cast<int>(problem.status);
 }
@@ -199,7 +199,8 @@ void GrblSession::watch_machine() {
 
 // ---- actions of other clients
 
-/// A reset at standstill has cleared the modes that waiting lines relied on.
+/// Handles a stop or reset by another client. A reset at standstill also locks if lines wait, since it has cleared the
+/// modes that they rely on.
 void GrblSession::stopped(const operate::StopReport& report) {
     if (state_.is_resetting_machine()) return;
     const bool waits = state_.is_held() || reader_.has_line() || pending_.exists();
@@ -214,8 +215,8 @@ void GrblSession::lose_control(const std::string& to) {
     lock(fmt::format("{} has taken control", to.empty() ? "Another user" : to));
 }
 
-/// Waiting lines are answered like all later ones: a line whose end alone is dropped would become another line. A
-/// homing gives its alarm when it has ended, as does a line past the travel.
+/// Locks the session. Keeps waiting lines, which are answered with an error: dropping part of a line would make another
+/// line of it. A homing, or a line past the travel, raises its own alarm when it has ended.
 void GrblSession::lock(std::string_view why) {
     const bool locked_before = state_.lock();
     gcode_.drop_n_words();
@@ -228,8 +229,8 @@ void GrblSession::lock(std::string_view why) {
 
 // ---- reset
 
-/// Motion of another client continues, unless the settings say otherwise. A stop in force ends only with a reset that
-/// the sender requests, not with an implicit reset of the Grbl.
+/// Resets the session. Motion of another client continues unless the settings permit stopping it. A stop in force ends
+/// only with a reset that the sender requests, not with an implicit reset of the Grbl.
 void GrblSession::reset(ResetCause cause) {
     const MachineState state = machine_.state();
     const bool is_stationary = operate::idle(state), latched = machine_.rack().stop_latch().latched();
@@ -258,7 +259,7 @@ void GrblSession::begin_again(bool after_reset) {
 
 // ---- deferred answers
 
-/// Returns true if the previous line is finished.
+/// Sends the pending answer if its line has been executed. Returns true if it was sent.
 bool GrblSession::finish() {
     const MachineState state = machine_.state();
     if (state_.needs_reset() || (state == MachineState::error_stop && pending_.action() != PendingAction::homing))
@@ -290,7 +291,8 @@ bool GrblSession::finish() {
     return true;
 }
 
-/// Axes without a switch keep their displayed positions, as after power-up of a Grbl.
+/// Ends a homing: answers it or raises its alarm. Axes without a switch keep their displayed positions, as after
+/// power-up of a Grbl.
 bool GrblSession::finish_homing() {
     const Result<void>& ended = machine_.manual().last_homing()->ended;
     if (ended) {

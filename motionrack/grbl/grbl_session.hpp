@@ -48,7 +48,8 @@ class GrblSession {
     /// Handles a stop or reset by another client: rejects the sender's lines until it unlocks or resets, since they
     /// were meant to follow the dropped lines. Called within the command.
     void stopped(const operate::StopReport& report);
-    /// Handles the loss of control to another client: the same, if the sender was working.
+    /// Handles the loss of control to the client `to`: rejects lines like stopped(), if lines were pending or the
+    /// machine was active.
     void lose_control(const std::string& to);
     /// Call every slice: processes pending lines, due answers and alarms.
     void tick();

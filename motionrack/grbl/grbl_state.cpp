@@ -46,7 +46,7 @@ bool GrblState::enters_error_stop() {
     return !std::exchange(stop_reported_, is_stopped_now) && is_stopped_now;
 }
 
-/// Drives are enabled by the client that moves them, not by a connection.
+/// Enables a machine that was never enabled. Called for motion commands only: connecting enables no drive.
 void GrblState::enable_new_machine() {
     if (never_enabled_) (void)machine_.enable(true);
 }
@@ -78,7 +78,7 @@ bool GrblState::release() {
     return std::exchange(stopped_, false);
 }
 
-/// A Grbl that slept wakes in Alarm.
+/// Clears holds, sleep and locks. After sleep the state is Alarm, as in Grbl.
 void GrblState::reset() {
     alarm_ = alarm_ || asleep_;
     held_ = door_ = asleep_ = critical_ = stopped_ = false;

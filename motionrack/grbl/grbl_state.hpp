@@ -1,4 +1,4 @@
-// The state of a Grbl: that of the machine, and what a Grbl has in addition, such as alarms, a door and sleep.
+// State of a Grbl: the machine's state, and states that only a Grbl has, such as its alarms, door and sleep.
 #pragma once
 
 #include <cstdint>
@@ -24,13 +24,13 @@ class GrblState {
     bool is_asleep() const { return asleep_; }
     bool is_held() const { return held_ || door_; }
 
-    /// Follows the machine: jogs, and holds that another client ends.
+    /// Updates the state from the machine's: jogs, and holds that another client ends. Call every slice.
     void watch_machine();
     /// Returns true once for each error stop of the machine.
     bool enters_error_stop();
     /// Enables a machine that was never enabled, since a Grbl has no such state.
     void enable_new_machine();
-    /// A machine that was never enabled is in Alarm from now on, like one that was disabled later.
+    /// Treats a machine that was never enabled like one that was disabled: in Alarm.
     void lock_disabled_machine() { never_enabled_ = false; }
 
     /// Resets the machine. stopped() of the session may be called within it.
@@ -40,7 +40,7 @@ class GrblState {
     /// Sets the positions shown as valid for axes that were not homed.
     void validate_positions();
 
-    /// Begins a hold, or if it was refused ends it.
+    /// Begins a hold (`begun`), or ends it because the machine refused it.
     void hold(bool begun) { held_ = begun; }
     void open_door();
     void end_hold() { held_ = door_ = hold_seen_ = false; }
@@ -48,8 +48,8 @@ class GrblState {
     void begin_alarm() { alarm_ = true; }
     void end_alarm() { alarm_ = false; }
     void require_reset() { critical_ = true; }
-    /// Begins a lock after a stop by another client. Returns true if one of these, or an alarm until a reset, held
-    /// before.
+    /// Begins a lock after a stop by another client. Returns true if such a lock, or an alarm that needs a reset, was
+    /// already in force.
     bool lock();
     /// Ends the lock after a stop by another client. Returns false if there was none.
     bool release();

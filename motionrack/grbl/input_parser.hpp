@@ -79,7 +79,7 @@ struct Line {
     bool too_long = false;
 };
 
-/// Waiting bytes, and the line that is being read from them.
+/// Assembles lines from received bytes; buffers bytes until their line is read.
 class InputParser {
   public:
     /// Adds one byte that is not a real-time byte. Returns false if the buffer was full and the byte is lost.

@@ -10,7 +10,8 @@ namespace {
 
 constexpr char reset_byte = '\x18';
 
-/// Bytes that a sender may send before its first line; a sender that searches for a Grbl sends only these at first.
+/// Returns true for bytes that a sender may send before its first line, as when it searches for a Grbl: ? ! ~ ^X and
+/// line ends.
 bool is_greeting(char c) {
     return c == '?' || c == '!' || c == '~' || c == '\r' || c == '\n' || c == reset_byte;
 }
@@ -26,7 +27,8 @@ bool is_words(std::string_view text) {
     return true;
 }
 
-/// A comment also counts. "[ESP..]" asks a possibly wireless serial adapter for its identity.
+/// Returns true if a G-code sender may send this line; a comment counts. "[ESP..]" asks a wireless serial adapter for
+/// its identity.
 bool is_line_of_a_sender(const Line& line) {
     const std::string& text = line.text;
     if (line.too_long) return false;

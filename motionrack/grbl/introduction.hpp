@@ -22,7 +22,7 @@ class Introduction {
     /// Limit of bytes without a line end from a sender.
     static constexpr std::size_t max_open_bytes = 512;
 
-    /// Requires an open verdict.
+    /// Adds received bytes and returns the verdict. Requires that the verdict so far is open.
     Verdict receive(std::string_view bytes);
     /// Returns all bytes received and clears them.
     std::string take_bytes() { return std::exchange(bytes_, {}); }

@@ -1,4 +1,4 @@
-// Lines of a sender, in order: its bytes that wait, and the next line while that has to wait.
+// Lines of a sender, in order: buffers its bytes, and the next line until that can be processed.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ class LineReader {
     void put(std::uint8_t byte) { (void)parser_.put(byte); }
     /// Returns the next line, which waits until it is taken; nothing if its end has not arrived.
     const Line* next();
-    /// Requires a line that waits.
+    /// Returns the line that next() has returned, and removes it. Requires has_line().
     Line take();
     bool has_line() const { return line_.has_value(); }
     std::size_t free_bytes() const { return parser_.free_bytes(); }

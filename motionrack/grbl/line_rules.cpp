@@ -15,7 +15,7 @@ control::gcode::Spindle spindle_of(int code) {
     return code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
 }
 
-/// Returns error_none if the block is a valid jog.
+/// Returns error_none if the block is a valid jog, else Grbl's error number.
 int fault_of_jog(const Block& block, int axes) {
     using namespace control::gcode;
     constexpr unsigned groups = 1u << g_units | 1u << g_distance | 1u << g_nonmodal;

@@ -16,7 +16,7 @@ bool must_stand_first(const control::gcode::Block& block, const control::gcode::
 /// Returns true if a line that the interpreter has just read moves an axis or switches something on.
 bool starts_something(control::gcode::Interpreter& read);
 
-/// Target and feed of a jog; or `error`, a Grbl error number.
+/// Target (machine coordinates) and feed rate of a jog; or `error`, a Grbl error number.
 struct JogLine {
     int error = error_none;
     control::Point target = {};

@@ -19,7 +19,7 @@ bool is_settled(const operate::Machine& machine) {
     return !machine.conditions().has_pending() && state != MachineState::stopping && state != MachineState::homing;
 }
 
-/// Contacts open when they act; a missing contact is inactive.
+/// Returns true if a contact exists at this wire and is open, as a contact is that acts.
 bool contact_open(operate::Machine& machine, const std::string& wire) {
     const Result<double> level = machine.wires().get(wire);
     return level && *level == 0;

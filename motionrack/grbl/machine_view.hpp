@@ -8,7 +8,7 @@ namespace motionrack::grbl {
 
 /// Returns true while the machine moves, including the deceleration into a hold.
 bool is_moving(const operate::Machine& machine);
-/// Returns true if only lines drive the machine.
+/// Returns true if the machine is not stopping or homing, and no stop or set position is pending.
 bool is_settled(const operate::Machine& machine);
 /// Returns true while a limit switch of this axis is active.
 bool limit_active(operate::Machine& machine, char letter);
@@ -22,7 +22,7 @@ bool is_stop_ordered(operate::Machine& machine);
 int alarm_of_stop(operate::Machine& machine);
 /// Returns N of ALARM:N for a homing that has failed. Requires one.
 int alarm_of_homing(operate::Machine& machine);
-/// Feed along the path, mm/min; degrees/min if only rotary axes move.
+/// Returns the velocity along the path, mm/min; degrees/min if only rotary axes move.
 double feed_now(const operate::Machine& machine);
 
 }  // namespace motionrack::grbl

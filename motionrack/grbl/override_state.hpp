@@ -1,4 +1,4 @@
-// Overrides in percent. Those of feed and rapids are the machine's; it has none for the spindle, so that is kept here.
+// Overrides in percent. Feed and rapid override are the machine's; it has no spindle override, so that is kept here.
 #pragma once
 
 #include <motionrack/grbl/input_parser.hpp>
@@ -6,7 +6,7 @@
 
 namespace motionrack::grbl {
 
-/// Percent.
+/// Feed, rapid and spindle override, percent.
 struct Overrides {
     int feed = 100, rapid = 100, spindle = 100;
     friend bool operator==(const Overrides&, const Overrides&) = default;
@@ -22,13 +22,13 @@ class OverrideState {
     /// Returns true while a hold keeps the spindle stopped.
     bool is_spindle_stopped() const { return spindle_stopped_; }
 
-    /// Requires a real-time byte that changes an override.
+    /// Changes an override by a real-time command. Requires is_override(what).
     void change(Realtime what);
     void toggle_spindle_stop() { spindle_stopped_ = !spindle_stopped_; }
     void end_spindle_stop() { spindle_stopped_ = false; }
     /// Sets all overrides to 100 %, as M2 and M30 do.
     void end_program();
-    /// Resets those of the spindle.
+    /// Sets the spindle override to 100 % and ends a spindle stop.
     void reset_spindle();
 
   private:

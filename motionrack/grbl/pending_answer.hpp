@@ -1,4 +1,4 @@
-// The answer to a line that is executed, while it is pending.
+// Deferred answer to a line: sent when the machine has executed it.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace motionrack::grbl {
 
-/// What the machine does before the line is answered.
+/// Action of the machine that ends before the line is answered.
 enum class PendingAction : std::uint8_t { moving, leaving_travel, homing, unlocking };
 
 class PendingAnswer {
@@ -25,7 +25,7 @@ class PendingAnswer {
     // These require a pending answer.
     PendingAction action() const { return line_->action; }
     bool program_ends() const { return line_->program_ends; }
-    /// Returns true once for each line.
+    /// Returns true on the first call for a line: axis positions have to be made valid now.
     bool begins_validation();
     /// Sends a message, unless the answer is suppressed.
     void push(std::string_view text);
@@ -37,7 +37,7 @@ class PendingAnswer {
         PendingAction action;
         bool program_ends;
         bool silent = false;     ///< its connection has closed
-        bool validated = false;  ///< positions to set are set (unlocking, homing)
+        bool validated = false;  ///< begins_validation() has returned true (unlocking, homing)
     };
 
     Answers& answers_;

@@ -74,7 +74,7 @@ std::optional<ResetCause> RealtimeCommands::hold() {
     return std::nullopt;
 }
 
-/// The machine has no door: it counts as closed again immediately, and the sender resumes.
+/// Executes the door byte: holds motion until the sender resumes. No contact is read, so the door counts as closed.
 std::optional<ResetCause> RealtimeCommands::open_door() {
     const State now = on_.state.now();
     if (now == State::home) return ResetCause::door;

@@ -49,7 +49,7 @@ std::string Reports::state_text(State now) const {
     return "";
 }
 
-/// Returns "1.000,2.000,3.000"; degrees stay degrees in inches.
+/// Returns "1.000,2.000,3.000" in mm or inches ($13); degrees are not converted.
 std::string Reports::values(const control::Point& point) const {
     std::string out;
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(from_.settings.axes); ++axis) {
@@ -91,7 +91,7 @@ bool Reports::report_probe() {
     return probed;
 }
 
-/// Work offset and overrides: after a change, and periodically; overrides never together with the offset.
+/// Returns the report of the work offset or of the overrides: after a change, and periodically; never both at once.
 std::string Reports::counted_reports(State now) {
     const control::Point& offset = from_.gcode.interpreter().frame().offset;
     const Overrides overrides_now = from_.overrides.now();
@@ -117,7 +117,8 @@ std::string Reports::counted_reports(State now) {
     return out;
 }
 
-/// P: probe contact; limit switches by axis; R: the emergency stop, which a Grbl has at its reset pin.
+/// Returns the active pins: P, probe contact; axis letters, limit switches; R, emergency stop, which a Grbl has at its
+/// reset pin.
 std::string Reports::pins() const {
     std::string out;
     if (const Result<double> probe = from_.machine.wires().get("probe"); probe && *probe != 0) out += 'P';
@@ -176,7 +177,7 @@ std::string Reports::parameters() const {
     return out + probe_text();
 }
 
-/// Machine coordinates of the last contact; the final 0 means no contact.
+/// Returns "[PRB:..]": machine coordinates of the last contact, then 1 for a contact or 0 for none.
 std::string Reports::probe_text() const {
     const control::gcode::WorkFrame& frame = from_.gcode.interpreter().frame();
     return fmt::format("[PRB:{}:{}]\r\n", values(frame.probe), frame.probe_hit ? 1 : 0);

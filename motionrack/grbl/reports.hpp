@@ -28,7 +28,7 @@ class Reports {
     };
     Reports(const Sources& sources, Answers& answers) : from_(sources), answers_(answers) {}
 
-    /// Several requests before the next answer count as one.
+    /// Requests a status report. Several requests before the next answer count as one.
     void request_status() { status_wanted_ = true; }
     /// Sends the status report if one is requested.
     void answer_request();
@@ -39,9 +39,9 @@ class Reports {
     /// Sends the work offset with the next status report, and the overrides after it.
     void repeat_all() { until_offset_ = until_overrides_ = 0; }
 
-    /// The answer to $G.
+    /// Returns the answer to $G.
     std::string parser_state() const;
-    /// The answer to $#.
+    /// Returns the answer to $#.
     std::string parameters() const;
 
   private:

@@ -31,12 +31,13 @@ class SenderSettings {
     void list_build() const;
 
     // These return Grbl's error numbers.
-    /// Parses 10=3.
+    /// Changes a setting; `text`: "10=3" of $10=3.
     int store(std::string_view text);
-    /// Parses 0=G54. The line is checked but not executed. It may only set modes, since a reset starts nothing.
+    /// Stores a startup line; `text`: "0=G54" of $N0=G54. The line is checked but not executed. It may only set modes,
+    /// since a reset starts nothing.
     int store_startup_line(std::string_view text);
     void store_build_text(std::string text) { build_text_ = std::move(text); }
-    /// Parses $RST=*. The session must be reset if it succeeds.
+    /// Restores defaults; `text`: "$RST=*". The session must be reset if it succeeds.
     int restore(const std::string& text);
 
   private:

@@ -1,4 +1,4 @@
-// What the owner of a Grbl port decides: the axes shown, and what its sender may do.
+// Settings of a Grbl port by its owner: the reported axes, and the permissions of its sender.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ struct SessionSettings {
     std::function<Result<void>()> take_control = {};
     /// Succeeds if a reset by this sender may stop the present action of the machine. Empty: always.
     std::function<Result<void>()> may_stop = {};
-    /// Identity of this sender, for reports of its resets; `kind`: "^X", "$X".
+    /// Returns the identity of this sender, for reports of its resets; `kind`: "^X", "$X".
     std::function<operate::StopOrigin(const char* kind)> source = [](const char* kind) {
         return operate::StopOrigin{"a sender", "", kind};
     };

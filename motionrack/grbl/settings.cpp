@@ -1,4 +1,4 @@
-// Table of settings.
+// Table of Grbl's numbered settings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using rack::RackConfig;
 
 constexpr int axis_decimals = 3;
 
-/// Bit n: axis n of X Y Z A.
+/// Returns a mask of axes: bit n for axis n of X Y Z A.
 template <class Is>
 double mask(const RackConfig& config, Is is) {
     unsigned bits = 0;
@@ -25,7 +25,7 @@ double mask(const RackConfig& config, Is is) {
     return bits;
 }
 
-/// Value of the first axis that can be homed; 0: none.
+/// Returns the value of the first axis that can be homed; 0 if none can.
 template <class Get>
 double of_homing(const RackConfig& config, Get get) {
     for (const RackAxis& axis : config.axes)

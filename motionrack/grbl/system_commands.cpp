@@ -93,7 +93,7 @@ int SystemCommands::check_mode() {
 
 // ---- unlock and homing
 
-/// The operator confirms the displayed axis positions.
+/// Executes $X: the operator confirms the displayed axis positions, which become valid.
 int SystemCommands::unlock() {
     if (on_.state.now() != State::alarm) return error_none;
     if (!control()) return error_locked;
