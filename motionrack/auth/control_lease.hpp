@@ -39,7 +39,7 @@ class ControlLease {
     /// and either `force` is not set, or the machine moves and the holder is connected. A user whose connection ended
     /// regains control without force.
     Result<void> take(std::string_view user, std::string_view session, bool force, bool machine_stands);
-    /// Refused: the session does not hold it.
+    /// Gives control back. Refused: the session does not hold it.
     Result<void> release(std::string_view session);
     /// Renews the control lease. Refused if the session does not hold it.
     Result<void> keep(std::string_view session) { return check(session); }

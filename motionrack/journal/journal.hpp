@@ -99,7 +99,7 @@ class Journal {
     /// entries may still be written, but the run gets no regular end. A deleted, replaced or truncated file is noticed
     /// within half a second.
     std::string failure() const;
-    /// Empty in the first run.
+    /// Returns the state left by the previous run; empty in the first run.
     const std::optional<LastRun>& before() const { return before_; }
     std::int64_t run() const { return run_; }
 

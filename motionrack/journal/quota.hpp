@@ -21,7 +21,7 @@ class Quota {
 
     explicit Quota(std::int64_t max_bytes) : max_bytes_(max_bytes) {}
 
-    /// On the writing thread, between transactions. Returns the sentence, or empty. Errors: io.
+    /// Applies the quota; returns a warning, or empty. Call on the writing thread, between transactions. Errors: io.
     Result<std::string> check(const Database& file);
 
   private:

@@ -53,8 +53,8 @@ class Process {
         return call(bench_);
     }
 
-    /// Makes "WHO: SENTENCE" the last error of the thread. Calls the handler if `told` is set. Requires the lock to be
-    /// free.
+    /// Stores "WHO: SENTENCE" as the last error of the thread. Calls the handler if `reported` is set. Requires the
+    /// lock to be free.
     void failed(std::string& last, std::string_view who, std::string_view sentence, bool reported = true) noexcept {
         try {
             const std::string start = std::string(who) + ": ";

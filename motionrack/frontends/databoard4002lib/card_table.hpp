@@ -35,7 +35,7 @@ class StopFlags {
     std::mutex lock_;
     std::map<int, std::shared_ptr<std::atomic<bool>>> flags_;
 };
-/// Those of the process.
+/// Returns the stop flags of the process.
 StopFlags& stop_flags();
 
 /// A lock that goes to the threads in the order in which they ask for it.
@@ -98,7 +98,8 @@ class OpenDataboard {
     Result<void> check_answers();
     /// Errors: stopped while a stop holds. `effect`: what that means for the call.
     Result<void> check_stop(std::string_view effect) const;
-    /// Q, also while a stop holds. Errors: machine if the card does not take it; those of check_answers().
+    /// Sends Q, the card's stop command, also while a stop holds. Errors: machine if the card does not take it; those
+    /// of check_answers().
     Result<void> stop();
     void reset_stop() { stop_->store(false); }
 
