@@ -47,7 +47,7 @@ int flushed(int code) {
     return code == exit_done ? static_cast<int>(exit_io) : code;
 }
 
-/// Does not allocate memory.
+/// Reports a failed allocation; allocates no memory itself.
 int say_out_of_memory() {
     static constexpr char sentence[] =
         "error: Not enough memory. The command was aborted: files written before are complete, all others unchanged. "

@@ -1,4 +1,4 @@
-// Files, errors and progress.
+// Reads and writes files; prints errors and progress.
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>

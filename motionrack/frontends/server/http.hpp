@@ -36,7 +36,7 @@ struct HttpAnswer {
 };
 
 HttpAnswer http_answer(const panel::Answer& answer);
-/// {"error":{"kind":..,"message":..}}
+/// Returns an error answer: {"error":{"kind":..,"message":..}}.
 HttpAnswer http_error(int status, std::string_view trouble, std::string sentence);
 
 /// Parses an object. Errors: invalid_input with line and column: not JSON, not an object, or nested deeper than 16.

@@ -26,7 +26,7 @@ class Server {
     void stop();
 
     std::uint16_t port() const;
-    /// "http://127.0.0.1:8080/"
+    /// Returns the address of the page: "http://127.0.0.1:8080/".
     std::string url() const;
 
     /// Number of WebSocket clients; any thread.

@@ -72,7 +72,7 @@ class PanelService {
              const nlohmann::json& fields, std::function<void(panel::Answer)> reply);
     /// Executes STOP. Never rejected, never limited.
     void stop(panel::Caller caller, const std::string& address);
-    /// A connection has ended.
+    /// Handles the end of a connection.
     void left(const std::string& session);
     /// Role of a client without a token.
     auth::Role role_without_token(const Peer& peer) const {

@@ -21,7 +21,7 @@ class SiteServer {
     static Result<std::unique_ptr<SiteServer>> open(Page site, std::uint16_t port);
     ~SiteServer();
 
-    /// "http://127.0.0.1:8081/"
+    /// Returns the address of the site: "http://127.0.0.1:8081/".
     std::string url() const;
     /// Answers requests in the calling thread for this time.
     void serve_for(std::chrono::milliseconds time);

@@ -1,4 +1,4 @@
-// TCP, and TLS over TCP.
+// Byte streams over TCP, and over TLS on TCP.
 #include <boost/asio/post.hpp>
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/beast/ssl/ssl_stream.hpp>

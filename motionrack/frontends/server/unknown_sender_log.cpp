@@ -1,4 +1,4 @@
-// Individual lines and summaries.
+// Writes audit entries of unauthenticated clients, singly or as summaries.
 #include <fmt/format.h>
 
 #include <motionrack/frontends/server/unknown_sender_log.hpp>
