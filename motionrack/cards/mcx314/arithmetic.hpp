@@ -1,5 +1,5 @@
 // The chip's integer arithmetic (RULES.md), shared by the virtual chip, the function library and the planner: limits of
-// the parameters, points of lines and arcs after any number of basic pulses, and the true end of an arc.
+// the parameters, points of lines and arcs after any number of basic pulses, and the actual end of an arc.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ inline constexpr double clock_hz = static_cast<double>(sclk_hz), rate_unit = 125
 inline constexpr std::int64_t max_units = 8'000;
 inline constexpr int start_ticks = 2;  ///< ticks between a drive command and the generator's first tick
 
-/// A parameter limited to its documented range, as the generator uses it.
+/// Returns a parameter limited to its documented range, as the generator uses it.
 constexpr std::int64_t used_range(std::int64_t r) {
     return std::clamp<std::int64_t>(r, 16'000, 16'777'215);
 }
@@ -31,12 +31,12 @@ constexpr std::int64_t used_jerk(std::int64_t k) {
     return std::clamp<std::int64_t>(k, 1, 65'535);
 }
 
-/// 24-bit two's complement, for finish points and centres.
+/// Converts a register to the signed value of its low 24 bits; for finish points and centres.
 constexpr std::int64_t signed24(std::uint32_t v) {
     return static_cast<std::int64_t>((v & 0xFF'FFFFu) ^ 0x80'0000u) - 0x80'0000;
 }
 
-/// 32-bit two's complement within +-2,147,483,646, as on the MCX314As.
+/// Converts a register to its signed 32-bit value, limited to +-2,147,483,646, as on the MCX314As.
 constexpr std::int64_t limited32(std::uint32_t v) {
     return std::clamp<std::int64_t>(static_cast<std::int32_t>(v), -2'147'483'646, 2'147'483'646);
 }
@@ -48,7 +48,7 @@ constexpr std::int64_t ceil_div(std::int64_t a, std::int64_t b) {
     return (a + b - 1) / b;
 }  // a >= 0, b > 0
 
-/// Largest s with s * s <= v, v < 2^63 - 2^33.
+/// Returns the largest s with s * s <= v; 0 <= v < 2^63 - 2^33.
 inline std::int64_t isqrt(std::int64_t v) {
     auto s = static_cast<std::int64_t>(std::sqrt(static_cast<double>(v)));
     while (s * s > v) --s;
@@ -56,7 +56,7 @@ inline std::int64_t isqrt(std::int64_t v) {
     return s;
 }
 
-/// The integer nearest to sqrt(q); 0 for q <= 0.
+/// Returns the integer nearest to sqrt(q); 0 for q <= 0.
 inline std::int64_t near(std::int64_t q) {
     if (q <= 0) return 0;
     const std::int64_t m = isqrt(q);
@@ -65,14 +65,15 @@ inline std::int64_t near(std::int64_t q) {
 
 // ---- lines
 
-/// Pulses of an axis with |P| = `p` after `n` basic pulses of a line whose longest axis has `max_p` (> 0); n * p is
-/// below 2^63 for all values that the chip accepts.
+/// Returns the pulses of an axis with finish point `p` (>= 0) after `n` basic pulses of a line whose longest axis has
+/// `max_p` (> 0); n * p is below 2^63 for all values that the chip accepts.
 constexpr std::int64_t line_steps(std::int64_t n, std::int64_t p, std::int64_t max_p) {
     const std::int64_t done = n * p / max_p, rest = n * p - done * max_p;
     return 2 * rest >= max_p ? done + 1 : done;
 }
 
-/// The basic pulse at which that axis makes pulse number `steps` (>= 1, <= p).
+/// Returns the basic pulse at which an axis of a line makes its pulse number `steps` (1 .. p); `p`, `max_p`: as in
+/// line_steps().
 constexpr std::int64_t line_pulse_of_step(std::int64_t steps, std::int64_t p, std::int64_t max_p) {
     const auto way = static_cast<std::uint64_t>(2 * steps - 1) * static_cast<std::uint64_t>(max_p);
     const auto twice = static_cast<std::uint64_t>(2 * p);
@@ -81,8 +82,8 @@ constexpr std::int64_t line_pulse_of_step(std::int64_t steps, std::int64_t p, st
 
 // ---- arcs
 
-/// In octant k: the coordinate (0: x, 1: y) that steps at every basic pulse, its direction, and the sign of the other
-/// coordinate.
+/// Octant of a circle: the coordinate (0: x, 1: y) that steps at every basic pulse, its direction, and the sign of the
+/// other coordinate.
 struct Octant {
     int short_axis, short_step, long_side;
 };
@@ -122,7 +123,8 @@ constexpr bool leaves_octant(int octant, std::int64_t x, std::int64_t y) {
     }
 }
 
-/// Counter-clockwise, x decreases in the upper half and y decreases in the left half.
+/// Returns the direction, -1 or +1, of a coordinate (0: x, 1: y) on a counter-clockwise arc: x decreases in the upper
+/// half, y in the left half.
 constexpr int direction_in_octant(int octant, int coordinate) {
     if (coordinate == 0) return octant < 4 ? -1 : +1;
     return octant >= 2 && octant < 6 ? -1 : +1;
@@ -137,11 +139,12 @@ struct Arc {
     std::int32_t octant = 0;
     std::int32_t finish_octant = 0;
     std::int32_t clockwise = 0;
-    std::int32_t lap = 0;  ///< the start is past the finish in the finish's octant
+    std::int32_t lap =
+        0;  ///< 1: the start lies behind the finish point in the same octant, so the arc passes that octant first
     std::int32_t finished = 1;
     std::int32_t reserved = 0;  ///< avoids padding in a state that is compared by its bytes
 
-    /// Centre and finish point relative to the start, each coordinate within +-2,147,483,646.
+    /// Begins an arc. Centre and finish point are relative to the start, each coordinate within +-2,147,483,646.
     void begin(std::int64_t cx, std::int64_t cy, std::int64_t fx, std::int64_t fy, bool cw) {
         clockwise = cw;
         const std::int64_t mirror = cw ? -1 : 1;
@@ -160,7 +163,7 @@ struct Arc {
         return (at[s] - finish[s]) * o.short_step >= 0;
     }
 
-    /// The point after `pulses` more basic pulses, of which only the last may leave the octant.
+    /// Returns the point after `pulses` more basic pulses, of which only the last may leave the octant.
     std::array<std::int64_t, 2> after(std::int64_t pulses) const {
         if (pulses == 0) return at;
         const Octant& o = octants[static_cast<std::size_t>(octant)];
@@ -195,7 +198,7 @@ struct Arc {
         return steps;
     }
 
-    /// Basic pulses until the octant is left (>= 1).
+    /// Returns the number of basic pulses (>= 1) until the octant is left.
     std::int64_t pulses_to_leave() const {
         const Octant& o = octants[static_cast<std::size_t>(octant)];
         const std::int64_t s = magnitude(at[static_cast<std::size_t>(o.short_axis)]);
@@ -205,7 +208,7 @@ struct Arc {
         return next - s;
     }
 
-    /// Basic pulses until the octant is left or the arc ends (>= 1).
+    /// Returns the number of basic pulses (>= 1) until the octant is left or the arc ends.
     std::int64_t pulses_to_event() const {
         std::int64_t pulses = pulses_to_leave();
         if (octant == finish_octant && !lap) {

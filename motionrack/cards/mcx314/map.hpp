@@ -1,4 +1,5 @@
-// The MCX314's map: all its declarations, as tables for documents and as constants for programs.
+// The MCX314's map: declarations of its registers, commands and state machines, as tables for documents and constants
+// for programs.
 #pragma once
 
 #include <motionrack/base/card_map.hpp>
@@ -81,7 +82,7 @@ inline constexpr unsigned SM = command_named(map::commands, "SM").code;
 inline constexpr unsigned SYNC = command_named(map::commands, "SYNC").code;
 }  // namespace cmd
 
-/// A field of a register by name; undeclared names do not compile: field("RR0", "CNEXT").test(word).
+/// Returns a field of a register by name; undeclared names do not compile: field("RR0", "CNEXT").test(word).
 consteval Field field(std::string_view reg_name, std::string_view field_name) {
     return {mask_of(register_named(map::registers, reg_name), field_name)};
 }
@@ -236,7 +237,7 @@ inline constexpr CardMap card = {"mcx314",  "Four-axis pulse chip with linear, c
 
 }  // namespace map
 
-/// The whole map, for documents, inspectors and traces.
+/// Returns the whole map, for documents, inspectors and traces.
 inline const CardMap& card_map() {
     return map::card;
 }

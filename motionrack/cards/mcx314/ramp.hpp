@@ -29,24 +29,24 @@ struct Speed {
 
 namespace rules {
 
-/// Ticks until va reaches 64,000; small numbers, divided as such.
+/// Returns the ticks until va reaches 64,000; divides 32-bit numbers, which is faster.
 inline std::int64_t ticks_to_carry(std::int64_t speed_part, std::int64_t rate) {
     const auto left = static_cast<std::uint32_t>(speed_carry - speed_part), each = static_cast<std::uint32_t>(rate);
     return (left + each - 1) / each;
 }
 
-/// Speed change until the rate has fallen from `rate` to 1, each rate below `rate` lasting `jerk` ticks; 64,000 per
-/// step of the speed.
+/// Returns the speed change until the rate has fallen from `rate` to 1, each rate below `rate` lasting `jerk` ticks;
+/// unit: 1/64,000 of a speed step.
 constexpr std::int64_t s_fall(std::int64_t rate, std::int64_t jerk) {
     return jerk * rate * (rate - 1) / 2;
 }
 
-/// Remaining speed change to the S-ramp's target, 64,000 per step.
+/// Returns the remaining speed change to the S-ramp's target; unit: 1/64,000 of a speed step.
 constexpr std::int64_t s_left(const Speed& law) {
     return magnitude(law.aim - law.speed) * speed_carry - law.speed_part;
 }
 
-/// Ticks until an S-ramp changes its rate, or stops increasing it; far if never.
+/// Returns the ticks until an S-ramp changes its rate, or stops increasing it; far if never.
 constexpr std::int64_t s_ticks_of_rate(const Speed& law, std::int64_t jerk) {
     const std::int64_t spare = std::max<std::int64_t>(0, s_left(law) - s_fall(law.rate, jerk));
     if (law.phase != RatePhase::increasing) return law.rate > 1 ? 1 + ceil_div(spare, law.rate) : far;
@@ -56,7 +56,7 @@ constexpr std::int64_t s_ticks_of_rate(const Speed& law, std::int64_t jerk) {
     return std::min(rise, ceil_div(more, 2 * law.rate));
 }
 
-/// Ticks until an S-ramp changes its speed or its rate.
+/// Returns the ticks until an S-ramp changes its speed or its rate.
 inline std::int64_t s_ticks(const Speed& law, std::int64_t jerk) {
     const std::int64_t step = law.rate > 0 ? ticks_to_carry(law.speed_part, law.rate) : far;
     return std::min(step, s_ticks_of_rate(law, jerk));
@@ -71,7 +71,7 @@ constexpr void s_begin(Speed& law, std::int64_t aim, std::int64_t jerk) {
     law.rate_part = law.ramp < 0 ? jerk : 0;
 }
 
-/// Executes `ticks` of an S-ramp in which neither changes.
+/// Executes `ticks` of an S-ramp in which neither its speed nor its rate changes.
 constexpr void s_skip(Speed& law, std::int64_t ticks) {
     if (law.phase == RatePhase::increasing) law.rate_part += ticks;
     law.speed_part += ticks * law.rate;
@@ -94,7 +94,7 @@ constexpr bool s_tick(Speed& law, std::int64_t jerk, std::int64_t top_rate) {
         law.speed += law.ramp;
         if (law.speed == law.aim) return true;
     }
-    // Half of the change is done: the remaining ticks of this rate belong to the second half.
+    // Half of the speed change is done: the remaining ticks of this rate belong to the second half.
     if (law.phase == RatePhase::increasing && s_left(law) <= s_fall(law.rate, jerk) + law.rate * (law.rate_part + 1)) {
         law.phase = RatePhase::decreasing;
         law.rate_part = 0;
@@ -108,7 +108,8 @@ struct Ramp {
     std::int64_t phase = 0;
 };
 
-/// An S-ramp of the speed from `from` to `to` (1 .. 8,000) with rates up to `limit` (A or D) and K.
+/// Computes an S-ramp of the speed from `from` to `to` (1 .. 8,000) with rates up to `limit` (A or D) and the jerk
+/// parameter K.
 inline Ramp s_ramp(std::int64_t from, std::int64_t to, std::int64_t limit, std::int64_t k) {
     Ramp ramp;
     if (from == to) return ramp;

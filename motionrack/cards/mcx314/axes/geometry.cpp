@@ -15,9 +15,9 @@ Pulses4 AxisMap::pulses(const control::Point& position) const {
 
 namespace {
 
-/// True if the chip must be able to move an axis on this path. Along a line this includes axes with a tiny share: of
-/// many lines with less than a pulse each, one has the pulse. Beside an arc, which the chip draws itself if no other
-/// axis moves, only a full pulse counts.
+/// Returns true if the chip must be able to move an axis on this path. Along a line this includes axes with a tiny
+/// share: of many lines with less than a pulse each, one has the pulse. Beside an arc, which the chip draws itself if
+/// no other axis moves, only a full pulse counts.
 bool has_part(const AxisMap& map, const control::Geometry& path, const control::Point& components, std::size_t axis) {
     constexpr double min_of_line = 1e-6;  // pulses: more than the rounding of coordinates
     const double scale = map.limits[axis].pulses_per_unit, pulses = components[axis] * path.length * scale;

@@ -143,8 +143,8 @@ double Segmenter::fall_from(const PendingMove& work, double units, const MoveSpe
     return fits ? from : 0;
 }
 
-/// True if the host can serve a segment between two positions, by its whole pulses: of a few pulses, rounding may
-/// remove one.
+/// Returns true if the host can serve a segment between two positions, by its whole pulses: of a few pulses, rounding
+/// may remove one.
 bool Segmenter::leaves_time(const PendingMove& work, double from, double to, std::int32_t v) const {
     const Pulses4 begin = from > 0 ? pulses_at(work, from) : at_;
     const auto pulses = static_cast<double>(basic_pulses(delta_between(work, begin, pulses_at(work, to))));

@@ -5,7 +5,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-/// A comparison as a condition (SM6) and as an interrupt (RR3).
+/// Fields of one comparison: the condition in SM6 and the interrupt in RR3.
 struct Comparison {
     Field condition, interrupt;
 };
@@ -14,20 +14,22 @@ constexpr std::array<Comparison, 4> comparisons = {
 
 }  // namespace
 
-/// Handles a condition: its axes act at the end of the tick or write.
+/// Notes that `condition` (a field of SM6) has occurred on axis `a`. If SM6 of `a` selects it, axis `a` and the axes
+/// that SM6 names act at the end of the tick or write.
 void ActionConditions::note(int a, Field condition) {
     Extension& ext = state_.extension[a];
     if (!condition.test(ext.sm6)) return;
     state_.acting |= 1u << a;
 }
 
-/// Handles comparisons that have become true, as bits of RR3.
+/// Notes the comparisons of axis `a` that have become true; `risen`: bits of RR3.
 void ActionConditions::note_comparisons(int a, unsigned risen) {
     for (const Comparison& each : comparisons)
         if (each.interrupt.test(risen)) note(a, each.condition);
 }
 
-/// Comparisons with subscribers.
+/// Updates the comparisons that axis `a` must evaluate: those that WR1 enables as interrupts or SM6 selects as
+/// conditions.
 void ActionConditions::hear_comparisons(int a) {
     Axis& axis = state_.axis[a];
     const unsigned conditions = state_.extension[a].sm6;

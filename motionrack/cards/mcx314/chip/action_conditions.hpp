@@ -10,11 +10,13 @@ class ActionConditions {
   public:
     explicit ActionConditions(State& state) : state_(state) {}
 
-    /// Handles a condition: its axes act at the end of the tick or write.
+    /// Notes that `condition` (a field of SM6) has occurred on axis `a`. If SM6 of `a` selects it, axis `a` and the
+    /// axes that SM6 names act at the end of the tick or write.
     void note(int a, Field condition);
-    /// Handles comparisons that have become true, as bits of RR3.
+    /// Notes the comparisons of axis `a` that have become true; `risen`: bits of RR3.
     void note_comparisons(int a, unsigned risen);
-    /// Determines the comparisons with subscribers: interrupts of WR1 and conditions of SM6.
+    /// Updates the comparisons that axis `a` must evaluate: those that WR1 enables as interrupts or SM6 selects as
+    /// conditions.
     void hear_comparisons(int a);
 
   private:

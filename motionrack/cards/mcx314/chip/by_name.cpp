@@ -1,4 +1,4 @@
-// Lookup of a name as a value of an axis, of the chip, or as a register.
+// Finds the value of an axis or of the chip, or the register, that a name denotes.
 #include <fmt/format.h>
 
 #include <algorithm>

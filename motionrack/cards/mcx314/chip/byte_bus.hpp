@@ -17,12 +17,12 @@ class ByteBus final : public BytePort, public sim::RegisterDevice {
     void out(std::uint8_t port, std::uint8_t value) override { chip_.write_byte(port & 15u, value); }
     std::uint8_t in(std::uint8_t port) override { return chip_.read_byte(port & 15u); }
 
-    /// Two accesses at the same instant: high byte, then low byte.
+    /// Writes the high byte, then the low byte, at the same instant.
     void write(std::uint32_t offset, std::uint16_t value) override {
         chip_.write_byte(offset + 1, static_cast<std::uint8_t>(value >> 8));
         chip_.write_byte(offset, static_cast<std::uint8_t>(value));
     }
-    /// The same for reading: low byte, then high byte.
+    /// Reads the low byte, then the high byte, at the same instant.
     std::uint16_t read(std::uint32_t offset) override {
         const unsigned low = chip_.read_byte(offset);
         return static_cast<std::uint16_t>(low | static_cast<unsigned>(chip_.read_byte(offset + 1)) << 8);

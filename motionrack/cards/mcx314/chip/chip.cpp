@@ -68,7 +68,8 @@ void Chip::catch_up(Instant now) {
     requests_.make_stale();
 }
 
-/// The same before an input changes: a change at the very instant of a tick belongs to that tick.
+/// Brings the chip up to the last tick before `now`, where an input changes: a change at the very instant of a tick
+/// belongs to that tick.
 void Chip::catch_up_before(Instant now) {
     events_.advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
     notifier_.note_rates();
@@ -128,7 +129,7 @@ void Chip::take_encoder(int a, bool taken) {
     settle(now);
 }
 
-/// Wires without a connected encoder: every change is counted individually.
+/// Counts a change of xeca or xecb of axis `a`, which has no connected encoder.
 void Chip::encoder_lines(int a, Instant now) {
     if (!encoders_.count_lines(a)) return;
     comparators_.compare(a);

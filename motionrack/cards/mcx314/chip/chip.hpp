@@ -60,34 +60,35 @@ namespace motionrack::mcx314 {
 
 class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
   public:
-    /// Adds the chip and its wires "<name>.<pin>" to the kernel. CLK is 16 MHz.
+    /// Adds the chip and its wires "<name>.<pin>" to the kernel. The clock input CLK is 16 MHz.
     Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& options = {});
 
     std::uint16_t read(std::uint32_t offset) override;
     void write(std::uint32_t offset, std::uint16_t value) override;
     std::uint16_t peek(std::uint32_t offset) const override { return status_.value(offset); }
-    /// The 8-bit bus (see ByteBus): port 2 n is the low byte of WRn and RRn, 2 n + 1 the high byte; the low byte of WR0
-    /// executes its command.
+    /// Access by the 8-bit bus (see ByteBus): port 2 n is the low byte of WRn and RRn, 2 n + 1 the high byte. Writing
+    /// the low byte of WR0 executes its command.
     std::uint8_t read_byte(std::uint32_t port);
     void write_byte(std::uint32_t port, std::uint8_t value);
 
-    /// Pulses of an axis (0 X .. 3 U) as a position over time: + and - pulses since the start, whatever LP is set to.
+    /// Returns the output of an axis (0 X .. 3 U) as a position over time: + pulses minus - pulses since the start,
+    /// independent of writes to LP.
     sim::PositionFunction& pulses(int axis) { return positions_[static_cast<std::size_t>(axis)]; }
     /// Connects the encoder at xeca/xecb; before the kernel starts.
     void connect_encoder(int axis, sim::PositionFunction& counts);
     /// Disconnects the encoder and forces xeca, xecb to its present levels (`taken`), or releases them and reconnects
     /// it. EP keeps its value; while disconnected it counts the forced levels. Between runs only.
     void take_encoder(int axis, bool taken);
-    /// Pulses of both directions since the start.
+    /// Returns the number of pulses since the start, those of both directions added.
     std::int64_t pulses_made(int axis);
     std::int32_t lp(int axis) const { return values_.lp(axis); }
     std::int32_t ep(int axis) const { return values_.ep(axis); }
 
-    /// A value by its name, without side effects: a register of the map, or the name of a data command ("P", "LP") or a
-    /// read command ("CV"). Counts are signed. `axis` matters for values that exist per axis. Empty if the name is
-    /// unknown.
+    /// Returns a value by its name, without side effects: a register of the map, or the name of a data command ("P",
+    /// "LP") or a read command ("CV"). Counts are signed. `axis` (0 .. 3) is used only for values that exist per axis.
+    /// Empty if the name is unknown.
     std::optional<std::int64_t> inspect(std::string_view name, int axis) const { return values_.inspect(name, axis); }
-    /// Names that inspect accepts; `per_axis`: those that exist per axis, or the others.
+    /// Returns the names that inspect() accepts: those of values per axis if `per_axis`, else those of the whole chip.
     static std::vector<std::string_view> inspected_names(bool per_axis) { return ChipValues::names(per_axis); }
 
     sim::DeviceId id() const { return id_; }
@@ -102,7 +103,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
     struct GeneralOutputs;  // general_outputs.hpp
 
   private:
-    /// Pulses of one axis.
+    /// Position of one axis, counted in output pulses.
     class Output final : public sim::PositionFunction {
       public:
         std::int64_t count(Instant t) const override { return chip->law_.count_at(axis, t); }
@@ -115,7 +116,7 @@ class Chip final : public sim::DeferringDevice, public sim::RegisterDevice {
         Chip* chip = nullptr;
         int axis = 0;
     };
-    /// Notified when an encoder passes a comparison value.
+    /// Receives the notification that an encoder has passed a comparison value.
     class EncoderListener final : public sim::PositionListener {
       public:
         void crossed(Instant now) override { chip->encoder_crossed(axis, now); }

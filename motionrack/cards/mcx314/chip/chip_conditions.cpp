@@ -1,4 +1,4 @@
-// Messages of the chip's conditions.
+// Texts of the messages for the conditions that a chip reports.
 #include <fmt/format.h>
 
 #include <motionrack/cards/mcx314/chip/chip_conditions.hpp>

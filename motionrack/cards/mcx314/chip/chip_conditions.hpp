@@ -1,4 +1,4 @@
-// Conditions that the chip reports to the user.
+// Conditions, such as an ignored command, that the chip reports to the user.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 
 namespace motionrack::mcx314 {
 
-/// Conditions that the chip reports.
+/// Codes of the reported conditions; `a` and `b` are the two numbers of the report.
 enum ChipCondition : std::uint16_t {
     drive_ignored = 1,    ///< a: command, b: axis that is driving
     path_ignored = 2,     ///< a: command; queue full, axis busy or named twice
     unknown_command = 3,  ///< a: command, b: 1 if the MCX314As has it
-    pattern_full = 4,     ///< 38h with three words stacked
+    pattern_full = 4,     ///< command 38h while the stack already has three words
     pattern_ran_out = 5,  ///< a: basic pulses made; the bit pattern ended without its end code
-    step_ignored = 6,     ///< 3Ah without a segment that waits for a step
-    output_held = 7       ///< a: 3 or 4, the number of WR, b: bits of outputs that a stop cleared, and that stay low
+    step_ignored = 6,     ///< command 3Ah while no segment waits for a step
+    output_held = 7       ///< a: 3 (WR3) or 4 (WR4), b: bits of the outputs that stay low since a stop cleared them
 };
 
-/// Message of a condition that a chip has reported.
+/// Returns the message for a condition that the chip `card` has reported.
 std::string describe(const sim::Condition& condition, const std::string& card);
 
 }  // namespace motionrack::mcx314

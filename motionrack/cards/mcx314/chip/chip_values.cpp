@@ -1,4 +1,4 @@
-// The table of all values by name.
+// Table of the values that can be inspected by name.
 #include <motionrack/cards/mcx314/chip/chip_values.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 
@@ -15,7 +15,7 @@ struct InspectedValue {
 
 constexpr bool in_each = true, in_one = false;
 
-// The generators may be behind: values that change between events are computed for the present instant.
+// The state may be older than the present instant: values that change between events are computed for that instant.
 constexpr InspectedValue inspected_values[] = {
     {"WR1", in_each, [](const ChipValues&, const Axis& x, int) -> std::int64_t { return x.wr1; }},
     {"WR2", in_each, [](const ChipValues&, const Axis& x, int) -> std::int64_t { return x.wr2; }},

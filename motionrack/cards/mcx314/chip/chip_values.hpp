@@ -1,4 +1,4 @@
-// Inspection of all values by name, without side effects on the chip.
+// Reads any value of the chip by name, without side effects.
 #pragma once
 
 #include <cstdint>
@@ -24,11 +24,11 @@ struct ChipValues {
     const StatusRegisters& status;
     const MachineStates& machines;
 
-    /// Chip::inspect.
+    /// Implements Chip::inspect().
     std::optional<std::int64_t> inspect(std::string_view name, int a) const;
-    /// Chip::inspected_names.
+    /// Implements Chip::inspected_names().
     static std::vector<std::string_view> names(bool per_axis);
-    /// LP and EP at the present instant.
+    /// Return the counters LP and EP of axis `a` at the present instant.
     std::int32_t lp(int a) const;
     std::int32_t ep(int a) const;
 };

@@ -1,4 +1,4 @@
-// Names of the wires, and which of them the chip hears or drives on demand.
+// Names of the wires; defines which the chip subscribes to and which it drives on demand.
 #include <motionrack/cards/mcx314/chip/chip_wires.hpp>
 
 namespace motionrack::mcx314 {

@@ -9,10 +9,11 @@
 namespace motionrack::mcx314 {
 
 struct ChipWires {
-    /// Pins below 16 * axes_of_chip: 16 * axis + Pin.
+    /// Numbers below 16 * axes_of_chip are input pins of an axis: 16 * axis + Pin.
     static constexpr int emergency_pin = 100, step_pin = 101;
-    static constexpr int encoder_pin = 120;  ///< + 2 * axis + (0 xeca, 1 xecb)
-    static constexpr int output_pin = 200;   ///< + 16 * axis + (0 xpp, 1 xpm, 2 xdrive, 8 + n: nOUTn)
+    static constexpr int encoder_pin = 120;  ///< first encoder pin: add 2 * axis + (0 xeca, 1 xecb)
+    static constexpr int output_pin =
+        200;  ///< first output pin: add 16 * axis + (0 xpp, 1 xpm, 2 xdrive, 8 + n: nOUTn)
 
     /// Adds the wires "<name>.<pin>" of the device `id` to the kernel.
     ChipWires(sim::Kernel& kernel, sim::DeviceId id, const std::string& name);

@@ -1,4 +1,4 @@
-// The commands of WR0, and the registers behind them: those that the bus shows only through data commands.
+// Executes the commands of WR0, and accesses the registers that the bus reaches only through data commands.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace motionrack::mcx314 {
 
 class CommandExecutor {
   public:
-    /// The parts of the chip that have commands.
+    /// Components of the chip on which commands act.
     struct CommandedParts {
         EventRequests& requests;
         InputPins& inputs;
@@ -50,9 +50,9 @@ class CommandExecutor {
           drives_(parts.drives),
           homes_(parts.homes) {}
 
-    /// A write to WR0 without RESET.
+    /// Executes a word written to WR0 whose RESET bit is 0.
     void execute(std::uint16_t value);
-    /// Writes the register of a data command with WR6 and WR7.
+    /// Writes WR6 (low word) and WR7 (high word) to the register that the data command `code` selects on axis `a`.
     void data_write(int code, int a);
 
   private:

@@ -10,7 +10,7 @@ bool CommandExecutor::has_extended(int code) {
     return false;
 }
 
-/// Returns false if the MCX314As does not know the command either.
+/// Executes a command that only the MCX314As has; returns false if `code` is not one.
 bool CommandExecutor::execute_extended(int code, unsigned axes) {
     if (!has_extended(code)) return false;
     if (code == cmd::READ_BR) {
@@ -58,7 +58,7 @@ void CommandExecutor::write_extended(int code, int a) {
     }
 }
 
-/// 60h.
+/// Command 60h: stores WR6 and WR7 as the extension mode EM6, EM7 of axis `a`.
 void CommandExecutor::set_extension(int a) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];
@@ -73,7 +73,7 @@ void CommandExecutor::set_extension(int a) {
     encoders_.watch(a);
 }
 
-/// COMP+ of an axis in ring mode.
+/// Sets COMP+, the highest count of axis `a` in ring mode.
 void CommandExecutor::set_ring_end(int a, std::int32_t value) {
     Axis& axis = state_.axis[a];
     const std::int32_t position = encoders_.position(axis, a);

@@ -3,7 +3,7 @@
 
 namespace motionrack::mcx314 {
 
-/// The counter that is compared with COMP+ and COMP-.
+/// Returns the counter, LP or EP, that is compared with COMP+ and COMP-.
 std::int32_t Comparators::compared_counter(int a) const {
     const Axis& axis = state_.axis[a];
     return wr2::CMPSL.test(axis.wr2) ? encoders_.position(axis, a) : axis.lp;

@@ -9,9 +9,10 @@
 
 namespace motionrack::mcx314 {
 
-/// True if interrupts, software limits or outputs depend on the comparisons with COMP+ and COMP-.
+/// Returns true if interrupts, software limits or outputs depend on the comparisons with COMP+ and COMP-.
 bool compares(const Axis& axis);
-/// Steps in `direction` until a comparison may change (>= 1); counters wrap at 32 bits.
+/// Returns the number of steps (>= 1) of `counter` in `direction` (+1, -1) until a comparison may change; counters wrap
+/// at 32 bits.
 std::int64_t steps_to_comparison(const Axis& axis, std::int32_t counter, int direction);
 
 class Comparators {
@@ -23,9 +24,10 @@ class Comparators {
           extended_(options.extended()),
           limit_begins_(options.software_limit == SoftwareLimit::at ? 1 : 0) {}
 
-    /// Evaluates the comparisons of an axis: those that have become true are interrupts and conditions of actions.
+    /// Evaluates the comparisons of axis `a`. Those that have become true request interrupts and are conditions of
+    /// actions.
     void compare(int a);
-    /// The counter that is compared with COMP+ and COMP-.
+    /// Returns the counter, LP or EP, that is compared with COMP+ and COMP-.
     std::int32_t compared_counter(int a) const;
     bool beyond_software_limit(int a) const;
 

@@ -1,4 +1,4 @@
-// Where the final deceleration of a drive begins, estimated from its acceleration.
+// Estimates, from the acceleration of a drive, the pulse at which its final deceleration begins.
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 
 namespace motionrack::mcx314 {

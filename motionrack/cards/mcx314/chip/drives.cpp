@@ -141,13 +141,13 @@ void Drives::ask_stop(unsigned axes, bool immediate) {
 
 // ---- only the MCX314As
 
-/// A drive begins without a speed cap.
+/// Removes the speed cap before a drive begins.
 void Drives::prepare_drive(int a) {
     state_.extension[a].cap = 0;
     generators_.set_drive_speed(a);
 }
 
-/// Determines the deceleration method of the new drive.
+/// Determines for the new drive whether its automatic deceleration uses D, and whether a triangle is prevented.
 void Drives::choose_deceleration(int a) {
     Generator& gen = state_.axis[a].gen;
     const bool automatic = !gen.manual && !gen.s_curve;

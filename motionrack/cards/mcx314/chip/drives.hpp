@@ -23,17 +23,19 @@ class Drives {
           conditions_(conditions),
           generators_(generators) {}
 
-    /// 20h .. 23h: each of the axes that is free starts, or holds the command until 25h.
+    /// Executes a drive command, 20h .. 23h: every named axis that is not driving starts, or holds the command until
+    /// 25h.
     void command(int code, unsigned axes);
-    /// Starts the drive of one axis.
+    /// Starts the drive of axis `a`; `code`: drive command, 20h .. 23h.
     void start(int a, int code);
-    /// 30h .. 35h: starts an interpolation, or queues the next segment.
+    /// Executes an interpolation command, 30h .. 35h: starts an interpolation, or queues the next segment.
     void path_command(int code);
-    /// 25h: starts the held drives.
+    /// Executes command 25h: starts the drives that the named axes hold.
     void free_held(unsigned axes);
-    /// 26h and 27h.
+    /// Requests a stop of the named axes: decelerating (command 26h) or immediate (27h).
     void ask_stop(unsigned axes, bool immediate);
-    /// Effective value of a finish point or centre.
+    /// Returns the value that the chip uses for the register `v` of a finish point or centre: 24 bits, or 32 on the
+    /// MCX314As.
     std::int64_t coordinate(std::uint32_t v) const { return extended_ ? rules::limited32(v) : rules::signed24(v); }
 
   private:

@@ -15,7 +15,7 @@ struct Interval {
     Interval times(std::int32_t n) const { return {n * whole + n * part / all, n * part % all, all}; }
 };
 
-/// State of the next edge, or of one edge per lane.
+/// Offset and remaining slack of the next edge, or of one edge per vector lane.
 template <class Signed, class Unsigned>
 struct PlaceInRow {
     Unsigned offset{};
@@ -99,7 +99,8 @@ class LongAxis {
     int way_ = 0;
 };
 
-/// The generator's next basic pulses at constant speed and range: pulse j occurs when acc has grown by j * R.
+/// Returns the generator's next basic pulses at constant speed and range, after `waited` ticks: pulse j occurs when acc
+/// has grown by j * R.
 EvenPulses even_pulses(const Generator& gen, std::int64_t waited) {
     const std::int64_t need = gen.range_now - gen.acc;
     EvenPulses run;
@@ -133,7 +134,7 @@ void EdgeStream::flush(int a) {
     batch.size = 0;
 }
 
-/// Emits one edge of axis `a`, after which its count is `count`.
+/// Emits one edge of axis `a` at tick `at`; `count`: position after it, pulses since the start.
 void EdgeStream::add(int a, std::int64_t at, int direction, std::int64_t count) {
     sim::EdgeBatch& batch = outputs_[a].batch;
     const std::int64_t offset = at - outputs_[a].batch_tick;
@@ -202,8 +203,8 @@ void EdgeStream::make(int a, std::int64_t waited, std::int64_t pulses) {
     }
 }
 
-/// An axis interpolated along a line steps at intervals of a number of basic pulses, or one more: two intervals, each
-/// with quotient and remainder.
+/// Emits the edges of an axis that is not the longest of a line: it steps every k or k + 1 basic pulses. Both intervals
+/// are divided once into quotient and remainder.
 void EdgeStream::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;
@@ -237,7 +238,8 @@ void EdgeStream::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
     }
 }
 
-/// Within an octant: the short axis steps evenly, the long one at changes of its nearest value.
+/// Emits the edges of an arc within an octant: one axis steps at every basic pulse, the other when its coordinate
+/// nearest to the circle changes.
 void EdgeStream::make_arc_edges(EvenPulses run, std::int64_t pulses) {
     const Path& path = state_.path;
     const rules::Octant& octant = rules::octants[path.arc.octant];
@@ -261,7 +263,8 @@ void EdgeStream::make_arc_edges(EvenPulses run, std::int64_t pulses) {
     }
 }
 
-/// With constant vector speed the interval of each basic pulse depends on the number of axes in the previous step.
+/// Emits the edges of a path with constant vector speed: the interval of a basic pulse depends on the number of axes
+/// that the previous one stepped.
 void EdgeStream::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;
@@ -297,8 +300,8 @@ void EdgeStream::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
     }
 }
 
-/// The same along an arc, within an octant: the short axis steps with every basic pulse, the long one with some of
-/// them.
+/// Emits the edges of an arc with constant vector speed within an octant: one axis steps at every basic pulse, the
+/// other at some of them.
 void EdgeStream::make_varied_arc_edges(std::int64_t waited, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;

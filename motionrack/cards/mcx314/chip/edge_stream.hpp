@@ -1,4 +1,4 @@
-// The edges of the pulses, for the axes with an edge listener: collected in batches while generators advance.
+// Output pulse edges for the edge listeners of the axes: collected in batches while the generators advance.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace motionrack::mcx314 {
 
-/// Pulses at one speed and range: the first at tick `at`, the others at intervals of `quotient` ticks, or one more
-/// when `slack` runs out.
+/// Pulses at one speed and range: the first at tick `at`. The intervals are `quotient` ticks, or one more when `slack`,
+/// from which each interval takes `remainder`, becomes negative.
 struct EvenPulses {
     std::int64_t at = 0, quotient = 0, remainder = 0, slack = 0, speed = 1;
 };
@@ -20,13 +20,13 @@ class EdgeStream {
     EdgeStream(const State& state, const PulseListeners& listeners) : state_(state), listeners_(listeners) {}
 
     bool wanted(int a) const { return outputs_[a].listener != nullptr; }
-    /// True if an axis that the generator moves has an edge listener.
+    /// Returns true if an axis that the generator moves has an edge listener.
     bool wanted_of(int generator) const;
-    /// Delivers the edges so far to the listener of axis `a`, and replaces it; nullptr: none.
+    /// Delivers the collected edges to the listener of axis `a`, then replaces that listener; nullptr: none.
     void set_listener(int a, sim::EdgeListener* listener);
     void flush(int a);
 
-    /// Emits one edge of axis `a`, after which its count is `count`.
+    /// Emits one edge of axis `a` at `tick`; `count`: position after it, pulses since the start.
     void add(int a, std::int64_t tick, int direction, std::int64_t count);
     /// Emits the next `pulses` basic pulses of a generator, which starts after `waited` more ticks; called before its
     /// state advances.

@@ -1,4 +1,4 @@
-// EP: a counter for the connected encoder, in closed form, or for the wires xeca and xecb.
+// The counter EP: follows the connected encoder in closed form, or counts the edges of xeca and xecb.
 #include <motionrack/cards/mcx314/chip/comparators.hpp>
 #include <motionrack/cards/mcx314/chip/encoder_inputs.hpp>
 
@@ -47,7 +47,7 @@ void EncoderInputs::set_position(int a, std::int32_t value) {
     axis.encoder.set(count, *sources_[a].motion, kernel_.now());
 }
 
-/// Subscribes to the encoder at the next count that may change a comparison with EP.
+/// Subscribes axis `a` to its encoder, at the next count that may change a comparison with EP.
 void EncoderInputs::watch(int a) {
     const Axis& axis = state_.axis[a];
     const ConnectedEncoder& source = sources_[a];

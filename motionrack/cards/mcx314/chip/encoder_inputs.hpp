@@ -17,7 +17,7 @@ class EncoderInputs {
 
     /// Connects an encoder; `listener` is notified when it passes a comparison value.
     void connect(int a, sim::PositionFunction& counts, sim::PositionListener& listener);
-    /// True if axis `a` has an encoder, connected or taken.
+    /// Returns true if axis `a` has an encoder, connected or taken.
     bool has_encoder(int a) const { return sources_[a].motion != nullptr; }
     bool connected(int a) const { return has_encoder(a) && !kernel_.forced(wires_.encoders[a][0]); }
     /// Disconnects the encoder and forces the wires to its present levels.
@@ -29,9 +29,9 @@ class EncoderInputs {
     std::int32_t position(const Axis& axis, int a) const;
     /// Writes EP; also applies the edge ratio of WR2 and the direction of EM.
     void set_position(int a, std::int32_t value);
-    /// Subscribes to the encoder at the next count that may change a comparison with EP.
+    /// Subscribes axis `a` to its encoder, at the next count that may change a comparison with EP.
     void watch(int a);
-    /// Counts a change of the wires without a connected encoder; returns true if EP has changed.
+    /// Counts a change of xeca or xecb while no encoder is connected; returns true if EP has changed.
     bool count_lines(int a);
 
   private:

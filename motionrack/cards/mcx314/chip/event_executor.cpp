@@ -1,4 +1,4 @@
-// Events of generators and inputs in the order of their ticks.
+// Executes the events of generators and inputs in the order of their ticks.
 #include <motionrack/cards/mcx314/chip/event_executor.hpp>
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 
@@ -18,8 +18,9 @@ void EventExecutor::work_to(std::int64_t to) {
     }
 }
 
-/// Executes everything up to and including tick `to`, the next event: generators that only change their speed in closed
-/// form, the others by the rules. Generators without an event, and without a path that depends on them, stay behind.
+/// Executes the ticks up to `to`, that of the next event. Generators that only change their speed advance in closed
+/// form, the others execute the tick by the rules. Generators without an event keep their older state, except that of a
+/// path, which is brought up too.
 void EventExecutor::work_off(std::int64_t to) {
     state_.tick = to;
     if (state_.sampling.next <= to) filters_.sample(to);

@@ -29,9 +29,10 @@ class EventExecutor {
           homes_(homes),
           actions_(actions) {}
 
-    /// Executes everything up to `tick`.
+    /// Brings the whole chip up to `tick`.
     void advance_to(std::int64_t tick);
-    /// Executes the events up to `tick`; generators without an event at the last of these ticks may stay behind.
+    /// Executes the events up to `tick`; the state of generators without an event at the last of these ticks may remain
+    /// older.
     void work_to(std::int64_t tick);
     /// Finds the tick of the next event.
     void find_next();

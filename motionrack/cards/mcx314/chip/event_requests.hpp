@@ -1,4 +1,4 @@
-// What an event leaves to be done after it: ticks to be executed, the search for the next event, changed laws of
+// Requests that an event makes for after it: ticks to be executed, the search for the next event, changed laws of
 // motion.
 #pragma once
 
@@ -13,32 +13,34 @@ class EventRequests {
   public:
     explicit EventRequests(State& state) : state_(state) {}
 
-    /// The inputs are sampled in the next tick.
+    /// Requests that the inputs are sampled in the next tick.
     void wake() { sample_at(state_.tick + 1); }
-    /// The inputs are sampled at `tick` at the latest.
+    /// Requests that the inputs are sampled at `tick` at the latest.
     void sample_at(std::int64_t tick) {
         state_.sampling.next = std::min(state_.sampling.next, tick);
         make_stale();
     }
-    /// After a change of inputs, limits or commands, every generator executes its next working tick in full.
+    /// Makes every generator execute its next working tick in full; required after a change of inputs, limits or
+    /// commands.
     void look_anew() {
         for (Axis& axis : state_.axis) axis.gen.full_tick = true;
     }
-    /// After a change of watched, compared or requested values, the next special pulse of every generator is unknown.
+    /// Invalidates the next special pulse of every generator; required after a change of watched, compared or requested
+    /// values.
     void forget_specials() {
         for (Axis& axis : state_.axis) axis.gen.special_known = false;
     }
 
-    /// The tick of the next event must be found again.
+    /// Requests that the tick of the next event is found again.
     void make_stale() { stale_ = true; }
     bool stale() const { return stale_; }
     void found_next() { stale_ = false; }
 
-    /// The law of motion of an axis has changed in the present event.
+    /// Records that the law of motion of axis `a` has changed in the present event.
     void law_changed(int a) { changed_ |= 1u << a; }
-    /// The same for all axes that a generator moves.
+    /// Records a changed law of motion for all axes that the generator moves.
     void law_changed_of(int generator) { changed_ |= state_.moved_by(generator); }
-    /// Axes whose law has changed since the last call.
+    /// Returns the axes, one bit each, whose law has changed since the last call.
     unsigned take_changed() { return std::exchange(changed_, 0u); }
 
   private:

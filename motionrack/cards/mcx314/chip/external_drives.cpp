@@ -24,7 +24,7 @@ bool falls(std::uint8_t& low, bool high) {
 
 }  // namespace
 
-/// WR3 was written over `before`.
+/// Applies the external drive mode in WR3 of axis `a`, whose previous word was `before`.
 void ExternalDrives::change_mode(int a, std::uint16_t before) {
     Axis& axis = state_.axis[a];
     if (external_mode(axis.wr3) == external_mode(before)) return;
@@ -38,7 +38,7 @@ void ExternalDrives::change_mode(int a, std::uint16_t before) {
     if (inputs_.turns_by_wire(a)) axis.external_low[0] = level(axis, Pin::exp_plus) ? 0 : 2;
 }
 
-/// Executes the requests of the changed wires after a tick.
+/// Executes, after a tick, the drives and steps that the changed wires request.
 void ExternalDrives::execute_requests() {
     const std::uint32_t sampled = std::exchange(state_.sampled, 0u);
     for_each_axis(sampled & (InputPins::step_wire - 1), [this](int a) {
@@ -68,7 +68,8 @@ void ExternalDrives::sample_drive(int a) {
     }
 }
 
-/// With B Low a rising A drives P pulses in + direction, a falling one in - direction.
+/// Evaluates the hand wheel: while line B (nEXPM) is Low, a rising line A (nEXPP) drives P pulses in + direction, a
+/// falling one in - direction.
 void ExternalDrives::sample_wheel(int a) {
     Axis& axis = state_.axis[a];
     const bool high = level(axis, Pin::exp_plus), was_high = axis.external_low[0] == 0;

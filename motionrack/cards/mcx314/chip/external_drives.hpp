@@ -1,4 +1,4 @@
-// Wires with commands: nEXPP and nEXPM for drives and hand wheels, EXPLSN for single steps.
+// Executes commands given by wires: nEXPP and nEXPM for drives and hand wheels, EXPLSN for single steps.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ class ExternalDrives {
     ExternalDrives(State& state, InputPins& inputs, Generators& generators, Drives& drives)
         : state_(state), inputs_(inputs), generators_(generators), drives_(drives) {}
 
-    /// WR3 was written over `before`.
+    /// Applies the external drive mode in WR3 of axis `a`, whose previous word was `before`.
     void change_mode(int a, std::uint16_t before);
-    /// Executes the requests of the changed wires after a tick.
+    /// Executes, after a tick, the drives and steps that the changed wires request.
     void execute_requests();
 
   private:

@@ -1,4 +1,4 @@
-// Closed form: the tick of the next event, and the advance to it in one step.
+// Computes in closed form the tick of the next event, and the advance to it in one step.
 //
 //   tick    |--------- plain ticks, pulses in closed form ---------|  event tick, executed by the rules
 //           now                                        speed step, special pulse, input ..
@@ -9,7 +9,7 @@ namespace motionrack::mcx314 {
 
 // ---- the tick of the next event
 
-/// The next tick at which generator `a` does more than accumulate, and whether that is only a step of its speed.
+/// Finds the next tick at which generator `a` does more than accumulate, and whether that is only a step of its speed.
 void FastForward::find_next_tick(int a) {
     Generator& gen = state_.axis[a].gen;
     gen.plain = gen.walks = false;
@@ -40,7 +40,7 @@ void FastForward::find_next_tick(int a) {
         walk_ahead(a, phase);
 }
 
-/// Basic pulses until one does more than step its axes (>= 1), far if never.
+/// Returns the number of basic pulses (>= 1) until one does more than step its axes, far if never.
 std::int64_t FastForward::pulses_to_special(int a) const {
     const Axis& own = state_.axis[a];
     const Generator& gen = own.gen;
@@ -64,7 +64,8 @@ std::int64_t FastForward::pulses_to_special(int a) const {
     return std::max<std::int64_t>(1, pulses);
 }
 
-/// Steps of an axis in `direction` until a limit, a comparison or a watched count is passed (>= 1), far if never.
+/// Returns the number of steps (>= 1) of an axis in `direction` until it passes a limit, a comparison or a watched
+/// count, far if never.
 std::int64_t FastForward::steps_to_threshold(int a, int direction) const {
     const Axis& axis = state_.axis[a];
     if (axis.pulses_wanted || (wr1::PULSE.test(axis.wr1) && !rr3::PULSE.test(axis.flags))) return 1;
@@ -92,7 +93,7 @@ void FastForward::bring_up(int a, std::int64_t to) {
     axis.gen.at = to;
 }
 
-/// Executes `ticks` of the second step, of which only the last may have a pulse that does more than step its axes.
+/// Executes step 2 of a tick, the pulses, for the next `ticks`. Only the last pulse may do more than step its axes.
 void FastForward::skip_phase(int a, std::int64_t ticks) {
     Generator& gen = state_.axis[a].gen;
     const std::int64_t waited = std::min<std::int64_t>(gen.wait, ticks);
@@ -166,7 +167,7 @@ void FastForward::work_in_full(std::int64_t to) {
 
 // ---- combined steps of the speed
 
-/// True if generator `a` is on a ramp whose steps are unobserved.
+/// Returns true if generator `a` is on a ramp whose speed steps have no observers, so they may be combined.
 bool FastForward::may_walk(int a) const {
     const Axis& axis = state_.axis[a];
     const Generator& gen = axis.gen;
@@ -177,7 +178,8 @@ bool FastForward::may_walk(int a) const {
     return (to - gen.speed) * gen.ramp > 0;
 }
 
-/// Combines the step at next_tick with the following steps, if there are any before `phase_limit`.
+/// Combines the speed step at next_tick with the following ones; `phase_limit`: sum of the speed up to the next pulse
+/// with a further effect.
 void FastForward::walk_ahead(int a, std::int64_t phase_limit) {
     Generator& gen = state_.axis[a].gen;
     if (!may_walk(a)) return;
@@ -186,7 +188,8 @@ void FastForward::walk_ahead(int a, std::int64_t phase_limit) {
     if (gen.walks) gen.next_tick = gen.at + ahead.ticks;
 }
 
-/// Advances generator `a` to tick `to` of its combined steps, at most to their end; or it waits.
+/// Advances generator `a` to tick `to` within its combined speed steps, at most to their end. A generator that waits
+/// for a step request changes only its time.
 void FastForward::bring_along(int a, std::int64_t to) {
     Generator& gen = state_.axis[a].gen;
     const std::int64_t ticks = to - gen.at;

@@ -1,4 +1,4 @@
-// Closed form: the tick of a generator's next event, and its advance over plain ticks in one step.
+// Computes in closed form the tick of a generator's next event, and advances it over plain ticks in one step.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,15 @@ class FastForward {
                 Comparators& comparators)
         : state_(state), law_(law), listeners_(listeners), edges_(edges), comparators_(comparators) {}
 
-    /// The next tick at which generator `a` does more than accumulate, and whether that is only a step of its speed.
+    /// Finds the next tick at which generator `a` does more than accumulate, and whether that is only a step of its
+    /// speed.
     void find_next_tick(int a);
     /// Advances generator `a`, which has no event up to `tick`, to that tick.
     void bring_up(int a, std::int64_t tick);
-    /// Advances generator `a` to `tick` of its combined steps, at most to their end; or it waits.
+    /// Advances generator `a` to `tick` within its combined speed steps, at most to their end. A generator that waits
+    /// for a step request changes only its time.
     void bring_along(int a, std::int64_t tick);
-    /// Executes `ticks` of the second step, of which only the last may have a pulse that does more than step its axes.
+    /// Executes step 2 of a tick, the pulses, for the next `ticks`. Only the last pulse may do more than step its axes.
     void skip_phase(int a, std::int64_t ticks);
     /// Updates the wires of the generator's axes after a basic pulse: `stepped` have a new pulse, the last pulse of the
     /// others has ended.

@@ -1,4 +1,4 @@
-// Clears the general outputs whatever axes the host has selected, and whether or not it writes bit patterns.
+// Clears and writes the general outputs, independent of the selected axes and of an open bit pattern.
 #include <motionrack/cards/mcx314/chip/general_outputs.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 

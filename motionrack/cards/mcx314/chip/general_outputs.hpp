@@ -6,17 +6,17 @@
 namespace motionrack::mcx314 {
 
 struct Chip::GeneralOutputs {
-    /// Sets all of them low, as a reset of the chip does, without an access of the bus. Each that was high stays low
-    /// until the host writes it low, then high: a word that the host remembers from before switches nothing on. Outputs
-    /// that show the status of the drive (OUTSL) continue to show it. Between runs only.
+    /// Sets all outputs low, as a reset of the chip does, without a bus access. An output that was high stays low until
+    /// the host writes it low, then high, so a word from before the stop switches nothing on. Outputs that show the
+    /// status of the drive (OUTSL) continue to show it. Between runs only.
     static void clear(Chip& chip);
-    /// The host writes WR4. Reports the first output that stays low.
+    /// Executes the host's write to WR4. Reports the first time that an output stays low.
     static void write(Chip& chip, const sim::MaskedWrite& put);
-    /// The host writes WR3 of an axis. As write.
+    /// Executes the host's write to WR3 of an axis. Reports the first time that an output stays low.
     static void write_modes(Chip& chip, int axis, const sim::MaskedWrite& put);
 
   private:
-    /// `low`: bits of WR`number` that stay low.
+    /// Reports outputs that stay low: the bits `low` of WR3 or WR4 (`number`).
     static void report(Chip& chip, int number, std::uint32_t low);
 };
 

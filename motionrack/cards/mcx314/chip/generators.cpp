@@ -28,7 +28,8 @@ void Generators::work(int a) {
 
 // ---- step 1
 
-/// Stop causes of one axis as bits of RR1, and the stop that they request.
+/// Returns the stop causes of one axis as bits of RR1; sets `decelerating` or `immediate` to the stop that they
+/// request.
 std::uint16_t Generators::active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const {
     unsigned causes = 0;
     for (int i = 0; i < 4; ++i)
@@ -65,7 +66,7 @@ bool Generators::inputs(int a) {
     return stop(a, decelerating, immediate);
 }
 
-/// Accepts a stop; returns true if it ended the drive.
+/// Begins the requested stop; returns true if it ended the drive.
 bool Generators::stop(int a, bool decelerating, bool immediate) {
     Generator& gen = state_.axis[a].gen;
     if (!decelerating && !immediate) return false;
@@ -278,7 +279,8 @@ void Generators::look_ahead_in_pattern() {
 
 // ---- single steps
 
-/// True if a step is in progress.
+/// Begins a single step requested by wire or by command (`by`, a bit of PathCommand::steps). Returns false if the
+/// running interpolation does not accept it.
 bool Generators::ask_step(std::uint32_t by) {
     if (state_.chain == 0 || state_.steps.in_progress || !(state_.path.command.steps & by)) return false;
     state_.steps.in_progress = true;
@@ -323,7 +325,7 @@ void Generators::set_drive_speed(int a, std::uint16_t v) {
     state_.axis[a].speed = v;
 }
 
-/// Called after a pulse of a drive with triangle prevention: once half of its pulses are used, its speed is capped.
+/// Caps the speed of a drive with triangle prevention once its ramps use half of its pulses; called after each pulse.
 void Generators::avoid_triangle(int a) {
     Generator& gen = state_.axis[a].gen;
     if (gen.final || gen.ramp <= 0) return;

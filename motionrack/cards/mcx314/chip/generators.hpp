@@ -19,7 +19,7 @@ namespace motionrack::mcx314 {
 
 class Generators {
   public:
-    /// What a pulse changes outside of the generators, and where it is announced.
+    /// Components that a pulse changes or notifies.
     struct Surroundings {
         EventRequests& requests;
         const PulseListeners& listeners;
@@ -45,13 +45,14 @@ class Generators {
 
     /// Executes one tick of generator `a`.
     void work(int a);
-    /// Its third step alone: the speed. Returns true if the drive ended.
+    /// Executes only step 3 of the tick, the speed, of generator `a`; returns true if the drive ended.
     bool speed_step(int a);
     /// Begins a segment of the running interpolation.
     void begin_segment(const PathCommand& command);
     /// Begins the final deceleration of generator `a` if it is due.
     void check_final(int a);
-    /// A request for a single step; returns true if it begins.
+    /// Begins a single step requested by wire or by command (`by`, a bit of PathCommand::steps). Returns false if the
+    /// running interpolation does not accept it.
     bool ask_step(std::uint32_t by);
     /// Sets V to `v`. The drive goes to HV in a slow drive of a home search, at most to the cap, and, by option, at
     /// least to SV.
@@ -84,8 +85,8 @@ class Generators {
     Comparators& comparators_;
     PatternStack& patterns_;
     FastForward& forward_;
-    unsigned moved_last_ = 0;               // axes that stepped in the present basic pulse
-    std::array<int, axes_of_chip> went_{};  // direction of each of these steps
+    unsigned moved_last_ = 0;               // axes (one bit each) that stepped in the present basic pulse
+    std::array<int, axes_of_chip> went_{};  // direction of each axis' step: -1, 0, +1
 };
 
 }  // namespace motionrack::mcx314

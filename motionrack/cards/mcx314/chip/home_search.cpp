@@ -16,7 +16,7 @@ namespace {
 bool step_enabled(const Extension& ext, int step) {
     return (ext.em7 & em::ST1E.mask << 2 * (step - 1)) != 0;
 }
-/// +1 or -1.
+/// Returns the direction of a step's drive: +1 or -1.
 int step_direction(const Extension& ext, int step) {
     return (ext.em7 & em::ST1D.mask << 2 * (step - 1)) != 0 ? -1 : 1;
 }
@@ -42,8 +42,8 @@ bool home_found(State& state, int a) {
     return drive.back ? !active && home.seen : active;
 }
 
-/// The states of the map's machine "home search", in its order. From the state after a row's step on, the rows try the
-/// later steps in turn: the first one that is enabled and has something to do.
+/// State table of the map's machine "home search", with its states in the same order. The rows of a state try the later
+/// steps in turn and take the first that is enabled and has something to do.
 struct ChipHomeSearch::HomeSteps {
     enum class State : std::uint8_t { idle, near, home, escape, again, index, offset };
     enum class Event : std::uint8_t { start, drive_ended };
@@ -69,11 +69,11 @@ struct ChipHomeSearch::HomeSteps {
     static bool wants_index(const ChipHomeSearch& s, int a) {
         return step_enabled(ext_of(s, a), 3) && !home_input(s.state_, a, 3);
     }
-    /// Step 3 is enabled, but its input is active already.
+    /// Returns true if step 3 is enabled; evaluated where wants_index() is false, so its input is active already.
     static bool misses_index(const ChipHomeSearch& s, int a) { return step_enabled(ext_of(s, a), 3); }
     static bool wants_offset(const ChipHomeSearch& s, int a) { return step_enabled(ext_of(s, a), 4); }
 
-    /// The search is cancelled, or the drive ended before it found what it looked for.
+    /// Returns true if the search was cancelled, or the drive ended before the event that its step waits for.
     static bool failed(const ChipHomeSearch& s, int a) {
         const Extension& ext = ext_of(s, a);
         const map::HomeDrive& drive = map::home_drive(ext.home.hmst);
@@ -116,7 +116,8 @@ struct ChipHomeSearch::HomeSteps {
         }
         s.finish(a);
     }
-    /// If there is a pulse, look() comes back at its end; else the search goes on at once.
+    /// Requests the clear pulse. If it is enabled, look() continues the search at its end; otherwise the search
+    /// continues at once.
     static void clear(ChipHomeSearch& s, int a) {
         s.state_.extension[a].home.cleared = true;
         s.ask_clear(a);
@@ -168,7 +169,7 @@ struct ChipHomeSearch::HomeSteps {
     };
     static_assert(declared<rows_flaw(machine_named(map::machines, "home search"), rows)>());
 
-    /// HMST is the state; the actions set it, by go() and finish().
+    /// Returns the state from HMST, which go() and finish() set.
     static State state_of(const ChipHomeSearch& s, int a) {
         for (std::size_t i = 0; i < std::size(map::home_drives); ++i)
             if (map::home_drives[i].hmst == ext_of(s, a).home.hmst) return static_cast<State>(i + 1);
@@ -179,7 +180,7 @@ struct ChipHomeSearch::HomeSteps {
     }
 };
 
-/// 62h.
+/// Executes command 62h: starts the home search of axis `a`, unless it is driving.
 void ChipHomeSearch::start(int a) {
     if (state_.driving(a)) return kernel_.report(id_, drive_ignored, static_cast<std::int64_t>(cmd::HOME), a);
     state_.extension[a].home = {};
@@ -206,7 +207,7 @@ void ChipHomeSearch::finish(int a) {
     if (em::HMINT.test(ext.em6)) state_.axis[a].flags |= rr3::HMEND.mask;
 }
 
-/// At the end of a tick: continues searches whose drive has ended.
+/// Continues the searches whose drive has ended; called at the end of a tick.
 void ChipHomeSearch::look() {
     for_each_axis(state_.homing, [&](int a) {
         const Extension& ext = state_.extension[a];

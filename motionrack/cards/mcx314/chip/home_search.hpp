@@ -13,9 +13,9 @@
 
 namespace motionrack::mcx314 {
 
-/// True if the event that a step of the home search waits for has occurred.
+/// Returns true if the event that a step of the home search waits for has occurred.
 bool home_input(const State& state, int a, int step);
-/// In step 1 of a tick: true if the drive of a home search must stop, as by a stop input.
+/// Returns true if the drive of a home search must stop as by a stop input; called in step 1 of a tick.
 bool home_found(State& state, int a);
 
 /// The searches of the four axes, and the deviation counter clear pulse at their end.
@@ -35,9 +35,9 @@ class ChipHomeSearch {
           generators_(generators),
           drives_(drives) {}
 
-    /// 62h.
+    /// Executes command 62h: starts the home search of axis `a`, unless it is driving.
     void start(int a);
-    /// At the end of a tick: continues searches whose drive has ended.
+    /// Continues the searches whose drive has ended; called at the end of a tick.
     void look();
     /// Begins the deviation counter clear pulse, if EM enables it.
     void ask_clear(int a);
@@ -45,7 +45,7 @@ class ChipHomeSearch {
   private:
     struct HomeSteps;
 
-    /// Starts the drive of a state.
+    /// Starts the drive of the state `hmst` (RR2 HMST).
     void go(int a, int hmst);
     void finish(int a);
 

@@ -28,7 +28,7 @@ std::int64_t delay_of(const Extension& ext) {
 
 }  // namespace
 
-/// Applies a write to EM: filters begin with the level of their wires, or end.
+/// Applies a write to EM of axis `a`: a new filter begins with the level of its wire, a disabled one ends.
 void InputFilters::set(int a) {
     Extension& ext = state_.extension[a];
     unsigned pins = 0;
@@ -51,7 +51,8 @@ void InputFilters::set(int a) {
     requests_.wake();
 }
 
-/// Handles a change of a wire; returns false if the wire has a filter, which then takes the change.
+/// Records a changed wire level (0, 1). Returns false if the pin has a filter, which passes the change on after its
+/// delay.
 bool InputFilters::passes(int pin, int wire_level) {
     const unsigned chip_filters = state_.extension[0].em6;
     if (pin == ChipWires::emergency_pin) {
@@ -67,7 +68,7 @@ bool InputFilters::passes(int pin, int wire_level) {
     return !bit(ext.filtered, pin % 16);
 }
 
-/// Applies the samples of tick `to` before the tick is executed.
+/// Samples the inputs for tick `to`, before the tick is executed.
 void InputFilters::sample(std::int64_t to) {
     state_.sampling.next = far;
     bool changed = sample_chip_filter(state_.sampling.emergency, emergency_is_filtered, state_.emergency_high, to);
@@ -100,7 +101,7 @@ bool InputFilters::sample_chip_filter(ChipFilter& filter, Field enable, bool see
     return true;
 }
 
-/// Returns true if a level has changed.
+/// Samples the filtered pins of axis `a`; returns true if a level in the chip has changed.
 bool InputFilters::sample_axis(int a, std::int64_t to) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];
@@ -125,7 +126,8 @@ bool InputFilters::sample_axis(int a, std::int64_t to) {
     return changed;
 }
 
-/// IN2 clears EP, IN3 is a condition of synchronous actions.
+/// Evaluates the edges of two inputs: an active IN2 clears EP if EPCLR is set, IN3 is a condition of synchronous
+/// actions.
 void InputFilters::sample_edges(int a) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];

@@ -28,11 +28,12 @@ class InputFilters {
           comparators_(comparators),
           forward_(forward) {}
 
-    /// Applies a write to EM: filters begin with the level of their wires, or end.
+    /// Applies a write to EM of axis `a`: a new filter begins with the level of its wire, a disabled one ends.
     void set(int a);
-    /// Handles a change of a wire; returns false if the wire has a filter, which then takes the change.
+    /// Records a changed wire level (0, 1). Returns false if the pin has a filter, which passes the change on after its
+    /// delay.
     bool passes(int pin, int wire_level);
-    /// Applies the samples of `tick` before the tick is executed.
+    /// Samples the inputs for `tick`, before the tick is executed.
     void sample(std::int64_t tick);
 
   private:

@@ -1,9 +1,10 @@
-// The input pins: those whose wires matter are followed.
+// Subscribes to the wires of those input pins that matter, and holds their levels.
 #include <motionrack/cards/mcx314/chip/input_pins.hpp>
 
 namespace motionrack::mcx314 {
 
-/// Disabled inputs are not subscribed, so a wire that is computed on demand (an index) costs no time.
+/// Subscribes to the inputs that matter to axis `a`. A disabled input is not subscribed, so a wire that is computed on
+/// demand (an index) costs no time.
 void InputPins::set_wants(int a) {
     Axis& axis = state_.axis[a];
     const unsigned filtered = state_.extension[a].filtered, also = extended_ ? inputs_of_extension(a) : 0u;
@@ -24,7 +25,7 @@ void InputPins::set_wants(int a) {
     for (int i = 0; i < 2; ++i) kernel_.subscribe(wires_.encoders[a][i], id_, true);
 }
 
-/// Pins whose wires must be followed for MCX314As functions.
+/// Returns the pins, bit Pin, whose wires MCX314As functions need.
 unsigned InputPins::inputs_of_extension(int a) const {
     const Extension& ext = state_.extension[a];
     unsigned pins = ext.filtered;
@@ -35,7 +36,7 @@ unsigned InputPins::inputs_of_extension(int a) const {
     return pins;
 }
 
-/// RR4 and RR5: eight input levels of one axis; filtered inputs show the output of the filter.
+/// Returns the eight input levels of one axis, as RR4 and RR5 show them; filtered inputs show the output of the filter.
 std::uint16_t InputPins::input_levels(int a) const {
     const unsigned filtered = state_.extension[a].filtered;
     unsigned v = state_.axis[a].levels & filtered & 0xFFu;
@@ -44,12 +45,12 @@ std::uint16_t InputPins::input_levels(int a) const {
     return static_cast<std::uint16_t>(v);
 }
 
-/// True if nEXPP and nEXPM are the lines A and B of a hand wheel.
+/// Returns true if nEXPP and nEXPM are the lines A and B of a hand wheel.
 bool InputPins::turns_by_wire(int a) const {
     return extended_ && external_mode(state_.axis[a].wr3) == external_wheel;
 }
 
-/// Handles a change of a pin of axis 16 * axis + Pin.
+/// Notes a change of an axis' input (`pin`: 16 * axis + Pin): if it is nEXPP or nEXPM, the next tick samples it.
 void InputPins::hear_external(int pin) {
     const int which = pin % 16;
     if (which == static_cast<int>(Pin::exp_plus) || which == static_cast<int>(Pin::exp_minus))

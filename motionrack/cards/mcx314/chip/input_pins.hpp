@@ -1,4 +1,4 @@
-// The input pins of the axes and EXPLSN: their levels, and which of their wires are followed.
+// The input pins of the axes and EXPLSN: holds their levels and subscribes to the wires that matter.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace motionrack::mcx314 {
 
 class InputPins {
   public:
-    static constexpr std::uint32_t step_wire = 1u << axes_of_chip;  ///< EXPLSN in State::sampled
+    static constexpr std::uint32_t step_wire = 1u << axes_of_chip;  ///< bit of EXPLSN in State::sampled
 
     InputPins(State& state, const ChipOptions& options, sim::Kernel& kernel, sim::DeviceId id, const ChipWires& wires)
         : state_(state), extended_(options.extended()), kernel_(kernel), id_(id), wires_(wires) {}
@@ -19,13 +19,14 @@ class InputPins {
     /// Subscribes to the inputs that matter to axis `a`, and reads their levels. Disabled inputs are not subscribed, so
     /// a wire that is computed on demand (an index) costs no time.
     void set_wants(int a);
-    /// RR4 and RR5: eight input levels of one axis; filtered inputs show the output of the filter.
+    /// Returns the eight input levels of one axis, as RR4 and RR5 show them; filtered inputs show the output of the
+    /// filter.
     std::uint16_t input_levels(int a) const;
-    /// True if nEXPP and nEXPM are the lines A and B of a hand wheel.
+    /// Returns true if nEXPP and nEXPM are the lines A and B of a hand wheel.
     bool turns_by_wire(int a) const;
-    /// Handles a change of a pin of axis 16 * axis + Pin, which may be nEXPP or nEXPM.
+    /// Notes a change of an axis' input (`pin`: 16 * axis + Pin): if it is nEXPP or nEXPM, the next tick samples it.
     void hear_external(int pin);
-    /// Handles the level of EXPLSN.
+    /// Stores the level (0, 1) of EXPLSN.
     void hear_step_wire(int wire_level);
 
   private:

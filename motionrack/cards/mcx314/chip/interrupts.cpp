@@ -1,4 +1,4 @@
-// The interrupts of the axes and of the interpolator share one line.
+// Drives the one interrupt line of the axes and the interpolator.
 #include <motionrack/cards/mcx314/chip/interrupts.hpp>
 
 namespace motionrack::mcx314 {

@@ -14,9 +14,9 @@ class Interrupts {
     Interrupts(State& state, sim::Kernel& kernel, const ChipWires& wires, EventRequests& requests)
         : state_(state), kernel_(kernel), wires_(wires), requests_(requests) {}
 
-    /// Sets the line after an event; a run ends when it falls.
+    /// Sets the interrupt line after an event; the kernel ends its run when the line becomes active (Low).
     void update();
-    /// Handles a read of the bits in `mask` of RR3.
+    /// Clears the bits in `mask` of RR3, which the host has read.
     void clear(std::uint16_t mask);
 
   private:

@@ -7,14 +7,14 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-/// Index of a state in its machine's table; an unknown name does not compile.
+/// Returns the index of a state in its machine's table; an unknown name does not compile.
 consteval int place(std::string_view machine_name, std::string_view name) {
     const int index = state_index(machine_named(map::machines, machine_name), name);
     if (index < 0) throw "the state machine has no state of this name";
     return index;
 }
 
-/// The states of the home search, in the order of map::home_drives.
+/// Indices of the home search's states, in the order of map::home_drives.
 constexpr int home_places[] = {place("home search", "near"),   place("home search", "home"),
                                place("home search", "escape"), place("home search", "again"),
                                place("home search", "index"),  place("home search", "offset")};
@@ -66,7 +66,7 @@ int MachineStates::home_state(int a) const {
     return place("home search", "idle");
 }
 
-/// "differs" if any filtered input of the axis does.
+/// Returns the state "differs" if any filtered input of the axis differs from its wire, else "same".
 int MachineStates::filter_state(int a) const {
     const Extension& ext = state_.extension[a];
     const bool differs = (ext.filtered & (ext.wires ^ state_.axis[a].levels)) != 0;

@@ -20,7 +20,7 @@ std::int64_t MotionLaw::count_at(int a, Instant t) const {
     return axis.count;
 }
 
-/// Present rate in pulses/s, signed; on an arc that of the tangent.
+/// Returns the rate of axis `a` at `t`, pulses/s, signed; on an arc that along the tangent.
 double MotionLaw::rate_of(int a, Instant t) const {
     const Axis& axis = state_.axis[a];
     const bool on_path = (state_.chain >> a & 1u) != 0;
@@ -57,7 +57,7 @@ double MotionLaw::rate_of(int a, Instant t) const {
     return 0;
 }
 
-/// State of the axis' last pulse at tick `to`.
+/// Returns the last pulse of axis `a` as it is at tick `to`.
 PulseMark MotionLaw::mark_at(int a, std::int64_t to) const {
     const Axis& axis = state_.axis[a];
     const bool on_path = (state_.chain >> a & 1u) != 0;
@@ -84,7 +84,7 @@ PulseMark MotionLaw::mark_at(int a, std::int64_t to) const {
     return mark;
 }
 
-/// Share of the running word's basic pulses that step AX(i+1), signed.
+/// Returns the share (-1 .. +1) of the running word's basic pulses that step AX(i+1).
 double MotionLaw::pattern_share(int i) const {
     const Pattern& pattern = state_.pattern;
     int steps = 0, at = 0;

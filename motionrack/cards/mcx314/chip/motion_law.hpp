@@ -15,34 +15,36 @@ class MotionLaw {
 
     // motion_law.cpp: an axis at an instant
     std::int64_t count_at(int a, Instant t) const;
-    /// Present rate in pulses/s, signed; on an arc that of the tangent.
+    /// Returns the rate of axis `a` at `t`, pulses/s, signed; on an arc that along the tangent.
     double rate_of(int a, Instant t) const;
-    /// State of the axis' last pulse at `tick`.
+    /// Returns the last pulse of axis `a` as it is at `tick`.
     PulseMark mark_at(int a, std::int64_t tick) const;
-    /// Basic pulses until the final deceleration of generator `a` (>= 1), far if it has none.
+    /// Returns the number of basic pulses (>= 1) until the final deceleration of generator `a`, far if it has none.
     std::int64_t pulses_to_final(int a) const;
 
     // motion_law_path.cpp: the running segment
     bool path_finished() const;
-    /// Direction of AX(i+1); 0: it is stationary.
+    /// Returns the direction of AX(i+1), -1 or +1; 0: it is stationary.
     int path_direction(int i) const;
-    /// True if the pulses of generator `a` are executed one by one.
+    /// Returns true if the pulses of generator `a` are executed one by one.
     bool walks_pulses(int a) const;
-    /// Basic pulses of the path until AX(i+1) has made `steps` more steps, far if that is beyond its next event.
+    /// Returns the number of basic pulses of the path until AX(i+1) has made `steps` more steps, far if that is beyond
+    /// the next event.
     std::int64_t pulses_until_steps(int generator, int i, std::int64_t steps) const;
-    /// Required sum of acc and the speed until the next `pulses` basic pulses (>= 1) are output.
+    /// Returns the sum that acc must reach, by adding the speed, until the next `pulses` basic pulses (>= 1) are
+    /// output.
     std::int64_t phase_for(const Generator& gen, std::int64_t pulses) const;
-    /// Basic pulses in the next plain working ticks, whose speeds add up to `added`.
+    /// Returns the number of basic pulses in the next plain working ticks, whose speeds add up to `added`.
     std::int64_t pulses_of(const Generator& gen, std::int64_t added) const;
-    /// Steps of AX1 .. AX3 in the next `pulses` basic pulses, signed.
+    /// Returns the signed steps of AX1 .. AX3 in the next `pulses` basic pulses.
     std::array<std::int64_t, 3> path_steps(std::int64_t pulses) const;
 
     // motion_law_walk.cpp: steps of the speed
-    /// Steps of generator `a` from its present state.
+    /// Adds up the speed steps of generator `a` from its present state, within the given ticks and sum of the speed.
     Walk walk(int a, std::int64_t tick_limit, std::int64_t phase_limit) const;
-    /// Sum of the generator's speed in the next `ticks`, none of them after next_tick.
+    /// Returns the sum of the generator's speed in the next `ticks`, none of them after next_tick.
     std::int64_t phase_in(int a, std::int64_t ticks) const;
-    /// The last of `pulses` basic pulses within the next `ticks`: its tick and its speed.
+    /// Returns the tick and the speed of the last of `pulses` basic pulses within the next `ticks`.
     PulseMoment last_pulse(int a, std::int64_t pulses, std::int64_t ticks) const;
 
   private:

@@ -1,4 +1,4 @@
-// Basic pulses of an interpolation: its directions, the steps of its axes, and the phase between its pulses.
+// Pulses of an interpolation in closed form: directions, steps of the axes, and the phase between pulses.
 #include <motionrack/cards/mcx314/chip/motion_law.hpp>
 
 namespace motionrack::mcx314 {
@@ -9,7 +9,7 @@ bool MotionLaw::path_finished() const {
                                      : state_.axis[state_.master].gen.n >= state_.path.max_pulses;
 }
 
-/// Direction of AX(i+1); 0: it is stationary.
+/// Returns the direction of AX(i+1), -1 or +1; 0: it is stationary.
 int MotionLaw::path_direction(int i) const {
     const PathCommand& command = state_.path.command;
     if (command.pattern()) return 0;
@@ -18,8 +18,8 @@ int MotionLaw::path_direction(int i) const {
     return i == 1 && state_.path.arc.clockwise ? -d : d;
 }
 
-/// Bit patterns, single steps and constant vector speed of three axes have no closed form here: their pulses are
-/// executed one by one.
+/// Returns true for bit patterns, single steps and constant vector speed of three axes: they have no closed form here,
+/// so their pulses are executed one by one.
 bool MotionLaw::walks_pulses(int a) const {
     const Path& path = state_.path;
     if (state_.axis[a].gen.drive != Drive::path) return false;
@@ -28,7 +28,8 @@ bool MotionLaw::walks_pulses(int a) const {
            (path.range_for[1] != path.range_for[0] || path.range_for[2] != path.range_for[0]);
 }
 
-/// Basic pulses of the path until AX(i+1) has made `steps` more steps, far if that is beyond its next event.
+/// Returns the number of basic pulses of the path until AX(i+1) has made `steps` more steps, far if that is beyond the
+/// next event.
 std::int64_t MotionLaw::pulses_until_steps(int a, int i, std::int64_t steps) const {
     const Path& path = state_.path;
     if (!path.command.arc()) {
@@ -48,7 +49,7 @@ std::int64_t MotionLaw::pulses_until_steps(int a, int i, std::int64_t steps) con
     return high;
 }
 
-/// Number of the next `pulses` basic pulses that step two axes (paths of two axes).
+/// Returns how many of the next `pulses` basic pulses step both axes of a path of two axes.
 std::int64_t MotionLaw::extra_steps(std::int64_t pulses) const {
     const Path& path = state_.path;
     if (pulses <= 0) return 0;
@@ -61,7 +62,7 @@ std::int64_t MotionLaw::extra_steps(std::int64_t pulses) const {
     return rules::line_steps(n + pulses, p, path.max_pulses) - rules::line_steps(n, p, path.max_pulses);
 }
 
-/// Required sum of acc and the speed until the next `pulses` basic pulses (>= 1) are output.
+/// Returns the sum that acc must reach, by adding the speed, until the next `pulses` basic pulses (>= 1) are output.
 std::int64_t MotionLaw::phase_for(const Generator& gen, std::int64_t pulses) const {
     if (gen.drive != Drive::path) return pulses * gen.range_now;
     const auto& range = state_.path.range_for;
@@ -71,7 +72,7 @@ std::int64_t MotionLaw::phase_for(const Generator& gen, std::int64_t pulses) con
     return phase;
 }
 
-/// Basic pulses in the next plain working ticks, whose speeds add up to `added`.
+/// Returns the number of basic pulses in the next plain working ticks, whose speeds add up to `added`.
 std::int64_t MotionLaw::pulses_of(const Generator& gen, std::int64_t added) const {
     const std::int64_t phase = gen.acc + added;
     if (phase < gen.range_now) return 0;
@@ -89,7 +90,7 @@ std::int64_t MotionLaw::pulses_of(const Generator& gen, std::int64_t added) cons
     return low;
 }
 
-/// Steps of AX1 .. AX3 in the next `pulses` basic pulses, signed.
+/// Returns the signed steps of AX1 .. AX3 in the next `pulses` basic pulses.
 std::array<std::int64_t, 3> MotionLaw::path_steps(std::int64_t pulses) const {
     const Path& path = state_.path;
     std::array<std::int64_t, 3> steps{};

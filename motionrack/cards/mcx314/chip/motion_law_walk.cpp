@@ -14,7 +14,7 @@ namespace {
 
 constexpr int max_walk_steps = 512;  // limited, because a change in between costs a repetition of these steps
 
-/// Straight ramp: the ticks of a step are 64,000 / rate, and one more by the remainder.
+/// Computes a straight ramp: a speed step takes 64,000 / rate ticks, or one more because of the remainder.
 Walk t_walk(const Speed& from, std::int64_t rate, std::int64_t to, std::int64_t tick_limit, std::int64_t phase_limit) {
     Walk walk{from};
     const std::int64_t steps = std::min<std::int64_t>(max_walk_steps, rules::magnitude(to - from.speed) - 1);
@@ -74,7 +74,7 @@ Walk s_walk(const Speed& from, const Axis& axis, std::int64_t tick_limit, std::i
 
 }  // namespace
 
-/// Steps of generator `a` from its present state.
+/// Adds up the speed steps of generator `a` from its present state, within the given ticks and sum of the speed.
 Walk MotionLaw::walk(int a, std::int64_t tick_limit, std::int64_t phase_limit) const {
     const Axis& axis = state_.axis[a];
     const Generator& gen = axis.gen;
@@ -82,7 +82,7 @@ Walk MotionLaw::walk(int a, std::int64_t tick_limit, std::int64_t phase_limit) c
                        : t_walk(gen, ramp_rate(axis, gen), target_speed(axis), tick_limit, phase_limit);
 }
 
-/// Sum of the generator's speed in the next `ticks`, none of them after next_tick.
+/// Returns the sum of the generator's speed in the next `ticks`, none of them after next_tick.
 std::int64_t MotionLaw::phase_in(int a, std::int64_t ticks) const {
     const Generator& gen = state_.axis[a].gen;
     if (state_.halted(a)) return 0;
@@ -91,7 +91,7 @@ std::int64_t MotionLaw::phase_in(int a, std::int64_t ticks) const {
     return so_far.phase + (ticks - so_far.ticks) * so_far.law.speed;
 }
 
-/// The last of `pulses` basic pulses within the next `ticks`: its tick and its speed.
+/// Returns the tick and the speed of the last of `pulses` basic pulses within the next `ticks`.
 PulseMoment MotionLaw::last_pulse(int a, std::int64_t pulses, std::int64_t ticks) const {
     const Generator& gen = state_.axis[a].gen;
     const std::int64_t phase = phase_for(gen, pulses) - gen.acc;

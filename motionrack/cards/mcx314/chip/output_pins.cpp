@@ -20,7 +20,7 @@ int OutputPins::pulse_level(int a, int which, bool pulse, int direction) const {
     return (pulse && (one_pulse || (direction > 0) == (which == 0))) != negative;
 }
 
-/// nOUT4..7: bits of WR3, or the drive's status: CMP+, CMP-, ASND, DSND.
+/// Returns the level of nOUT4..7: the bit of WR3, or by OUTSL the drive's status CMP+, CMP-, ASND, DSND.
 int OutputPins::output_level(int a, int output) const {
     static constexpr std::array<Field, 4> shown = {rr1::CMPP, rr1::CMPM, rr1::ASND, rr1::DSND};
     const Axis& axis = state_.axis[a];
@@ -28,7 +28,7 @@ int OutputPins::output_level(int a, int output) const {
     return (axis.wr3 & wr3::OUT4.mask << (output - 4)) != 0;
 }
 
-/// nDRIVE: the axis drives, or the deviation counter clear pulse.
+/// Returns the level of nDRIVE: High while the axis is busy, or by DCCE the deviation counter clear pulse.
 int OutputPins::drive_level(int a, std::int64_t at) const {
     const Extension& ext = state_.extension[a];
     return em::DCCE.test(ext.em7) ? (at < ext.clear_until) != em::DCCL.test(ext.em7) : state_.busy(a);
@@ -42,7 +42,7 @@ int OutputPins::level_at(int pin, std::int64_t at) const {
     return pulse_level(a, which, mark.active(at), mark.direction);
 }
 
-/// Determines the axes with followed wires; every pulse of these is an event.
+/// Determines the axes with listeners on their output wires; every pulse of such an axis is an event.
 void OutputPins::note_followers() {
     state_.following = 0;
     for (int a = 0; a < axes_of_chip; ++a) {
@@ -61,7 +61,7 @@ void OutputPins::note_followers() {
     }
 }
 
-/// Sets the followed wires.
+/// Sets the output wires that have listeners to their levels.
 void OutputPins::show(Instant now) {
     const std::int64_t at = tick_of(now);
     for (int a = 0; a < axes_of_chip; ++a) {

@@ -1,4 +1,4 @@
-// The output pins: computed on demand, or set for their listeners.
+// Drives the output pins: computes a level on demand, or sets the wires that have listeners.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ class OutputPins {
                const StatusRegisters& status)
         : state_(state), kernel_(kernel), wires_(wires), requests_(requests), law_(law), status_(status) {}
 
-    /// Sets nOUT0..3 to WR4.
+    /// Sets nOUT0..3 of every axis to the bits of WR4.
     void set_general_outputs();
-    /// Level of a pin that is computed on demand (ChipWires::output_pin) at `tick`.
+    /// Returns the level (0, 1) at `tick` of a pin that is computed on demand (ChipWires::output_pin).
     int level_at(int pin, std::int64_t tick) const;
-    /// Determines the axes with followed wires; every pulse of these is an event.
+    /// Determines the axes with listeners on their output wires; every pulse of such an axis is an event.
     void note_followers();
-    /// Sets the followed wires.
+    /// Sets the output wires that have listeners to their levels.
     void show(Instant now);
 
   private:

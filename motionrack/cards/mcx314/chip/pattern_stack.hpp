@@ -1,4 +1,4 @@
-// The words of a bit pattern: registers, stack and running word.
+// Holds the words of a bit pattern: registers, stack and running word.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ class PatternStack {
         : pattern_(pattern), kernel_(kernel), id_(id) {}
 
     void reset() { pattern_ = {}; }
-    /// 36h .. 39h.
+    /// Executes a command of the bit pattern, 36h .. 39h.
     void execute(int code);
-    /// Removes the running word and all others.
+    /// Removes the running word and all stacked words.
     void clear();
     /// Makes the oldest stacked word, if any, the running one; requires that all steps of the running word are made.
     /// `made`: basic pulses so far; `interrupts`: a stack with one word left requests an interrupt.

@@ -1,11 +1,11 @@
-// Rates and watched counts: what the listeners to positions receive after an event.
+// Sends rates and watched counts to the position listeners after an event.
 #include <bit>
 #include <motionrack/cards/mcx314/chip/position_notifier.hpp>
 #include <utility>
 
 namespace motionrack::mcx314 {
 
-/// Updates the rates before an event: along an arc they drift between the changes that listeners receive.
+/// Updates, before an event, the rates last sent to listeners: along an arc they drift between the reported changes.
 void PositionNotifier::note_rates() {
     if (state_.chain == 0 || !state_.path.command.arc()) return;
     for (int i = 0; i < 2; ++i) {

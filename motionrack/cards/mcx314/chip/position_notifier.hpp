@@ -16,9 +16,10 @@ class PositionNotifier {
                      EdgeStream& edges)
         : state_(state), requests_(requests), law_(law), listeners_(listeners), edges_(edges) {}
 
-    /// Updates the rates before an event: along an arc they drift between the changes that listeners receive.
+    /// Updates, before an event, the rates last sent to listeners: along an arc they drift between the reported
+    /// changes.
     void note_rates();
-    /// After an event: delivers the edges, the changed rates and the watched counts that are passed.
+    /// Delivers, after an event, the edges, the changed rates and the watched counts that were passed.
     void notify(Instant now);
 
   private:

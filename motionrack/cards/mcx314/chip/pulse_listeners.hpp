@@ -9,7 +9,7 @@ namespace motionrack::mcx314 {
 
 struct PulseListeners {
     std::array<sim::Listeners, axes_of_chip> of_axis;
-    unsigned heard = 0;  ///< axes whose position or edges have listeners
+    unsigned heard = 0;  ///< axes, one bit each, whose position or edges have listeners
 
     /// Adds a listener to the position of axis `a`; returns its slot.
     int add(int a, sim::PositionListener& listener) {

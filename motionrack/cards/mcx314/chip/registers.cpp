@@ -1,4 +1,4 @@
-// Accesses of the bus and their effects.
+// Executes accesses of the bus to the registers.
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/chip/general_outputs.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
@@ -47,7 +47,7 @@ void Chip::write_byte(std::uint32_t port, std::uint8_t value) {
         write_bits(port & ~1u, static_cast<std::uint16_t>(high ? value << 8 : value), high ? 0xFF00 : 0x00FF);
 }
 
-/// Writes the bits in `mask`.
+/// Writes the bits in `mask` of the register at `offset`.
 void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask) {
     const Instant now = kernel_.now();
     catch_up(now);
@@ -73,7 +73,7 @@ void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t m
     settle(now);
 }
 
-/// WR1 .. WR3 of an axis.
+/// Writes WR1, WR2 or WR3 of axis `a`.
 void Chip::write_mode(std::uint32_t offset, int a, const sim::MaskedWrite& put) {
     Axis& axis = state_.axis[a];
     if (offset == reg::WR3) {

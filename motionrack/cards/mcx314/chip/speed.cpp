@@ -1,4 +1,4 @@
-// The third step of a tick: the speed approaches its target on a straight or an S-shaped ramp (RULES.md).
+// Step 3 of a tick: the speed approaches its target on a straight or an S-shaped ramp (RULES.md).
 #include <motionrack/cards/mcx314/chip/ramp.hpp>
 
 namespace motionrack::mcx314 {
@@ -40,7 +40,8 @@ void t_curve(Axis& axis) {
     }
 }
 
-/// The final deceleration begins in this tick: an accelerating ramp is dropped, a decelerating one gets a new target.
+/// Adapts the S-ramp to the final deceleration, which begins in this tick: ends an accelerating ramp, gives a
+/// decelerating one its new target.
 void s_turn_final(Axis& axis) {
     Generator& gen = axis.gen;
     auto over = [&] {

@@ -13,11 +13,11 @@ class StatusRegisters {
     StatusRegisters(const State& state, const InputPins& inputs, const Comparators& comparators)
         : state_(state), inputs_(inputs), comparators_(comparators) {}
 
-    /// The register at a byte offset of the bus.
+    /// Returns the register at a byte offset of the bus, 0 .. 0Eh.
     std::uint16_t value(std::uint32_t offset) const;
-    /// RR0.
+    /// Returns the main status register RR0.
     std::uint16_t main_status() const;
-    /// RR1 and RR2 of an axis.
+    /// Return the status registers RR1 and RR2 of axis `a`.
     std::uint16_t status1(int a) const;
     std::uint16_t status2(int a) const;
 

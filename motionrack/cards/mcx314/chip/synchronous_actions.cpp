@@ -18,7 +18,7 @@ constexpr std::array<Act, 4> drives = {{{sm::FDRVP, cmd::FIXED_PLUS},
                                         {sm::CDRVP, cmd::CONTINUOUS_PLUS},
                                         {sm::CDRVM, cmd::CONTINUOUS_MINUS}}};
 
-/// Axes that act on a condition of axis `a`.
+/// Returns the axes, one bit each, that act on a condition of axis `a`.
 unsigned acting_with(int a, const Extension& ext) {
     unsigned axes = 1u << a;
     int place = 0;
@@ -32,8 +32,8 @@ unsigned acting_with(int a, const Extension& ext) {
 
 }  // namespace
 
-/// At the end of a tick or a write: executes the actions of the conditions so far. The consequences of these actions
-/// follow later.
+/// Executes the actions of all conditions noted so far; called at the end of a tick or a write. Conditions that these
+/// actions cause are handled in the next tick.
 void SynchronousActions::act() {
     unsigned acting = 0;
     for_each_axis(std::exchange(state_.acting, 0u), [&](int a) { acting |= acting_with(a, state_.extension[a]); });

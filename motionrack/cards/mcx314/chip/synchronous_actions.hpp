@@ -25,8 +25,8 @@ class SynchronousActions {
           homes_(homes),
           commands_(commands) {}
 
-    /// At the end of a tick or a write: executes the actions of the conditions so far. The consequences of these
-    /// actions follow later.
+    /// Executes the actions of all conditions noted so far; called at the end of a tick or a write. Conditions that
+    /// these actions cause are handled in the next tick.
     void act();
 
   private:

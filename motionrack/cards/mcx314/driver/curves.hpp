@@ -55,7 +55,7 @@ struct CurvePlan {
     bool reaches_v = false;  ///< false: a triangle
     bool full_s = false;     ///< S-curve whose acceleration stayed below its limit (no straight middle)
     Duration time() const { return nanoseconds(125 * ticks); }
-    /// True if the drive ends at SV, or at V if that is not above SV.
+    /// Returns true if the drive ends at SV, or at V if that is not above SV.
     bool ends_slow() const { return end_v <= std::min(data.SV, data.V); }
 
     double hz(std::int64_t v) const { return static_cast<double>(v) * rules::clock_hz / static_cast<double>(data.R); }

@@ -32,14 +32,14 @@ struct DriveStatus {
     bool in_s_ramp() const {
         return field("RR1", "AASND").test(rr1) || field("RR1", "ACNST").test(rr1) || field("RR1", "ADSND").test(rr1);
     }
-    /// True if the limit switch is active or has stopped the axis; live or latched.
+    /// Returns true if the limit switch is active or has stopped the axis; live or latched.
     bool at_plus_limit() const { return field("RR2", "HLMTP").test(rr2) || field("RR1", "LMTP").test(rr1); }
     bool at_minus_limit() const { return field("RR2", "HLMTM").test(rr2) || field("RR1", "LMTM").test(rr1); }
     bool at_software_limit() const { return field("RR2", "SLMTP").test(rr2) || field("RR2", "SLMTM").test(rr2); }
     bool at_limit() const { return at_plus_limit() || at_minus_limit() || at_software_limit(); }
     bool alarm() const { return field("RR2", "ALARM").test(rr2) || field("RR1", "ALARM").test(rr1); }
     bool emergency() const { return field("RR2", "EMG").test(rr2) || field("RR1", "EMG").test(rr1); }
-    /// True if stopped by input n, 0..3.
+    /// Returns true if stopped by input n, 0..3.
     bool stopped_by_input(int n) const { return (field("RR1", "IN0").mask << n & rr1) != 0; }
     /// Reason for the end of the last drive, as a phrase ("the + limit switch was reached"); empty for a normal end.
     std::string why_stopped() const;

@@ -1,4 +1,4 @@
-// The MCX314's commands, declared once, with the documented ranges.
+// Declares the MCX314's commands with the documented ranges of their data.
 #pragma once
 
 #include <motionrack/base/commands.hpp>

@@ -71,7 +71,7 @@ inline constexpr FieldInfo sm7_fields[] = {
     {"INT", 0x8000, "action: interrupt, RR3 SYNC"},
 };
 
-/// Delays of the input filters by FL, in ticks of 125 ns. Pulses up to 7/8 of the delay are certainly removed.
+/// Delays of the input filters by FL, in ticks of 125 ns. Input pulses up to 7/8 of the delay are always suppressed.
 inline constexpr std::array<std::int32_t, 8> filter_ticks = {16, 2'048, 4'096, 8'192, 16'384, 32'768, 65'536, 131'072};
 
 /// Widths of the deviation counter clear pulse by DCCW, in ticks of 125 ns.
@@ -80,7 +80,7 @@ inline constexpr std::array<std::int32_t, 8> clear_ticks = {80, 160, 800, 1'600,
 /// A state of the home search in which the axis drives.
 struct HomeDrive {
     int hmst;   ///< value of RR2 HMST
-    int step;   ///< 1 .. 4: step with the enable and direction bits
+    int step;   ///< step, 1 .. 4, whose enable and direction bits apply
     bool back;  ///< drives against its step's direction
     bool slow;  ///< at HV instead of V
 };
