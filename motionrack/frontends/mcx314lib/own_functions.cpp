@@ -26,7 +26,7 @@ Result<Duration> time_of(int milliseconds) {
                 fmt::format("the time is {} ms; it must be 0 to 2147483647 ms. Nothing was run.", milliseconds));
 }
 
-/// 0 or 1.
+/// Converts 0 or 1 to a bool; refuses other values.
 Result<bool> bit_of(int value, const char* what) {
     if (value == 0 || value == 1) return value == 1;
     return fail(ErrorKind::refused, fmt::format("the {} is {}; it must be 0 or 1. Nothing was written.", what, value));

@@ -36,7 +36,8 @@ double PathRule::velocity_ratio(const control::Geometry& before, const control::
     return rate_along(before, before.tangent_out) / rate_along(after, after.tangent_in);
 }
 
-/// On an arc that the chip draws itself: the least of all directions, by which its speeds are written.
+/// Returns the basic pulses per mm; on an arc that the chip draws itself the least of all directions, by which its
+/// speeds are written.
 double PathRule::rate_along(const control::Geometry& path, const control::Point& tangent) const {
     const DriveMotion drawing = drawing_of(map_, path);
     if (path.shape == control::PathShape::arc && drawing.constant_vector)

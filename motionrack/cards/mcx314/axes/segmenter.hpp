@@ -55,7 +55,7 @@ class Segmenter {
 
     /// Minimum duration of a segment, s: a shorter one may end before the host has written the next.
     static double min_seconds(const HostTimes& host);
-    /// The same for a segment whose pulses are counted.
+    /// Returns the minimum duration, s, of a segment of which the host counts the whole pulses.
     static double min_counted_seconds(const HostTimes& host);
 
   private:

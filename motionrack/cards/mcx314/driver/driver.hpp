@@ -53,7 +53,7 @@ class Driver {
     Result<void> SetAO(unsigned axes, std::optional<std::int64_t> value);
     /// Output pulses of a fixed drive, -268,435,455 .. 268,435,455; the sign is the direction that DriveFixed() takes.
     Result<void> Pulse(unsigned axes, std::int64_t pulses);
-    /// The chip determines the deceleration point itself. Not for arcs.
+    /// Selects automatic deceleration: the chip determines the deceleration point itself. Not for arcs.
     Result<void> AutoDec(unsigned axes = xyzu);
     /// Fixed drives decelerate after `point` pulses, 0 .. 268,435,455.
     Result<void> ManualDec(unsigned axes, std::int64_t point);
@@ -76,12 +76,12 @@ class Driver {
                           std::int64_t pulses);
     Result<void> SCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
                           bool negative = false);
-    /// Plan of TCurve_F (`k` 0) or SCurve_F with these numbers; writes nothing.
+    /// Returns the plan of TCurve_F (`k` 0) or SCurve_F with these values; writes nothing.
     Result<CurvePlan> plan(int axis, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
                            std::int64_t pulses) const;
     /// Starts the drives set by Pulse(), each axis in its direction, all at the same tick.
     Result<void> DriveFixed(unsigned axes);
-    /// The bare commands 20h..27h.
+    /// Write the commands 20h..27h without any check or parameter.
     void Drive(unsigned axes, bool negative);
     void DriveContinuous(unsigned axes, bool negative);
     void Hold(unsigned axes);
@@ -89,7 +89,7 @@ class Driver {
     void SlowStop(unsigned axes);
     void QuickStop(unsigned axes);
 
-    // ---- while driving (flight.cpp)
+    // ---- while driving (on_the_fly.cpp)
     /// Stops the axes of the mask and all axes interpolated with them. An empty mask is refused; it does not mean
     /// "all".
     Result<void> stop(unsigned axes, StopKind kind);
@@ -121,9 +121,9 @@ class Driver {
     Result<void> CircleCCW_C(const CIRCLEDATA& data, unsigned axes);
     Result<void> CircleCW_T(const CIRCLEDATA& data, unsigned axes);
     Result<void> CircleCCW_T(const CIRCLEDATA& data, unsigned axes);
-    /// End of such an arc on the chip, and its basic pulses; writes nothing.
+    /// Returns the end of an arc on the chip, and its basic pulses; writes nothing.
     Result<rules::ArcEnd> arc_end(const CIRCLEDATA& data, unsigned axes, bool clockwise) const;
-    /// Maximum distance of a finish point from the circle over the radius (at least 3 pulses): 0 .. 1, initially 0.01.
+    /// Sets the tolerance: distance of a finish point from the circle over the radius, 0 .. 1 (0.01); >= 3 pulses.
     Result<void> set_arc_tolerance(double part);
     double arc_tolerance() const { return arc_tolerance_; }
     /// Keeps the path speed of later lines and arcs constant: two axes stepping together take 1.414 times as long,
@@ -148,7 +148,7 @@ class Driver {
     // ContStart, then any number of ContLine and ContArc, then ContEnd. The last segment is held back until the next
     // call, because only the last one decelerates. Each call waits until the chip takes it, at most `timeout`.
     Result<void> ContStart(const CONTDATA& data);
-    /// P of the axes in the mask (two or three). `v`: speed from this segment on, 0: unchanged.
+    /// Adds a line; `finish`: P of the axes in the mask (two or three); `v`: speed from this segment on, 0: unchanged.
     Result<void> ContLine(unsigned axes, const FourAxes& finish, std::int64_t v = 0,
                           Duration timeout = whole_seconds(60));
     Result<void> ContArc(unsigned axes, const FourAxes& finish, const FourAxes& centre, bool clockwise,
@@ -165,9 +165,9 @@ class Driver {
     Result<void> BPStart();
     /// Restores the registers and waits for the end of the drive.
     Result<void> BPEnd(Duration timeout = whole_seconds(60));
-    /// Source of the steps of the next interpolation.
+    /// Selects the source of the steps of the next interpolation.
     Result<void> SetStep(StepBy by);
-    /// One basic pulse of an interpolation whose steps come by command (3Ah).
+    /// Requests one basic pulse (3Ah) of an interpolation whose steps come by command.
     Result<void> Step();
 
     // ---- limits and signals (signals.cpp)
@@ -187,9 +187,9 @@ class Driver {
     Result<void> SetExternalDrive(unsigned axes, ExternalDrive mode);     ///< nEXPP, nEXPM
     /// MCX314As: actions of an axis (`actions`, SM7) on one of its `conditions` (SM6). 0, 0: none.
     Result<void> SetSynchronous(unsigned axes, std::uint16_t conditions, std::uint16_t actions);
-    /// MCX314As: the condition CMD of the axes.
+    /// MCX314As: triggers the synchronous actions of axes that have selected the condition CMD.
     Result<void> Synchronous(unsigned axes);
-    /// MCX314As: the counter saved by the axis' synchronous action.
+    /// MCX314As: returns the counter that the axis' synchronous action has saved in BR.
     std::int32_t ReadBR(int axis);
     /// nOUT0 .. nOUT7 (4..7 unless they show the status). After an emergency stop one must be set low, then high.
     Result<void> SetOutput(unsigned axes, int output, bool high);
@@ -232,13 +232,13 @@ class Driver {
     /// Waits until none of the axes drives. Errors: ErrorKind::machine after `timeout`; ErrorKind::stopped if the user
     /// requested a stop (the axes are then decelerated to standstill).
     Result<void> wait_until_stopped(unsigned axes, Duration timeout);
-    /// The same, with ErrorKind::machine and the reports if an axis was stopped by a limit, an alarm or the emergency
-    /// input.
+    /// Waits as wait_until_stopped(). Also ErrorKind::machine, with the reports, if a limit, an alarm or the emergency
+    /// input stopped an axis.
     Result<void> wait_until_done(unsigned axes, Duration timeout);
 
-    /// Last written value of a parameter, cmd::R .. cmd::L; absent after a reset.
+    /// Returns the last written value of a parameter, cmd::R .. cmd::L; absent after a reset.
     std::optional<std::int64_t> written(int axis, unsigned code) const { return kept(axis).data.at(code); }
-    /// Pulses/s of one V unit: 8,000,000 / R; 0 before R is written.
+    /// Returns the pulses/s of one V unit: 8,000,000 / R; 0 before R is written.
     double multiple(int axis) const;
 
     RegisterPort& port() { return port_; }

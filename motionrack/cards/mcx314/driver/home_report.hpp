@@ -63,7 +63,7 @@ struct HomeReport {
     std::vector<std::string> notes;
     std::int64_t bounces = 0;               ///< changes of the home input that were not a new edge
     std::optional<std::int32_t> switch_lp;  ///< last position at which the home input became active
-    std::int64_t switch_within = 0;         ///< uncertainty, as HomingEdge::within
+    std::int64_t switch_within = 0;         ///< uncertainty in pulses, as ChipHomingEdge::within
     double switch_speed_hz = 0;
     std::optional<std::int32_t> index_lp;
     std::int32_t zero_lp = 0;  ///< LP of home before LP was written
@@ -74,7 +74,7 @@ struct HomeReport {
 
     /// A position of this report relative to home, as LP counts afterwards; valid only if homed.
     std::int64_t relative(std::int32_t lp) const;
-    /// Pulses from the switch's edge to the index.
+    /// Returns the pulses from the switch's edge to the index.
     std::optional<std::int64_t> switch_to_index() const;
     /// Result for a caller: ErrorKind::stopped or ErrorKind::machine with the sentence, success if homed.
     Result<void> result() const;

@@ -10,7 +10,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-/// "12,345".
+/// Formats a number with separators: "12,345".
 std::string grouped(std::int64_t value) {
     std::string digits = fmt::format("{}", value < 0 ? -value : value);
     for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');

@@ -12,7 +12,7 @@ namespace motionrack::mcx314 {
 /// Axis masks: X 1, Y 2, Z 4, U 8, and their sums. Functions for one axis take its channel, 0 X .. 3 U.
 inline constexpr unsigned axis_x = 1, axis_y = 2, axis_z = 4, axis_u = 8, xyzu = 0xF;
 
-/// "XY" for 3.
+/// Returns the names of the axes in a mask, for example "XY" for 3.
 std::string axes_text(unsigned axes);
 
 /// An interpolation command's end, in pulses relative to its start.

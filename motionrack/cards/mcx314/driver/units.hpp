@@ -52,11 +52,11 @@ struct RealSetting {
 /// Selects R. Errors: ErrorKind::refused with the maximum possible value in the same unit; also for values that are not
 /// numbers or not above 0.
 Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive);
-/// The same with a given R, 16,000 .. 8,000,000.
+/// Computes the setting for a given R, 16,000 .. 8,000,000. Errors: as real_setting().
 Result<RealSetting> real_setting_at(const Scale& scale, const RealDrive& drive, std::int64_t range);
-/// Conversion back from registers.
+/// Converts a curve in register units to mm (degrees) and s.
 RealDrive real_values(const Scale& scale, const CurveData& curve);
-/// The nearest whole pulse. Errors: not a number, or beyond 2,147,483,647 pulses.
+/// Rounds a distance to the nearest whole pulse. Errors: not a number, or beyond 2,147,483,647 pulses.
 Result<Rounded> to_pulses(const Scale& scale, double distance);
 
 /// A plan in real units.

@@ -139,7 +139,8 @@ Result<std::array<double, 4>> Driver::axis_speeds() {
     return out;
 }
 
-/// Mean R over many basic pulses: with constant vector speed it is longer for pulses that step more than one axis.
+/// Returns the mean R over many basic pulses: with constant vector speed it is longer for pulses that step more than
+/// one axis.
 double Driver::mean_range(const Piece& piece, int generator, const std::array<double, 4>& share) const {
     const ChannelList list = channels_of(piece.axes);
     const auto own = static_cast<double>(kept(generator).own_range);

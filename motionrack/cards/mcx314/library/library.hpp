@@ -24,7 +24,7 @@ class QuickStops final : public Interrupt {
     }
     Instant now() const override { return inner_.now(); }
     bool stop_requested() const override { return inner_.stop_requested(); }
-    /// All axes, at once.
+    /// Stops all axes at once (command 27h).
     void stop();
 
   private:
