@@ -76,12 +76,12 @@ bool Scanner::bad_character() {
     if (c == '*')
         return fail_at(column, GrblStatus::expected_letter, "'*': checksums are not supported; leave them out");
     if (c == ')') return fail_at(column, GrblStatus::expected_letter, "')' without '(' before it; take it out");
-    if (is_digit(static_cast<char>(c)) || c == '.' || c == '-' || c == '+') {
-        std::size_t stop = column;
-        while (stop < text_.size() && stop < column + 20 && !is_letter(text_[stop]) && !is_blank(text_[stop])) ++stop;
+    constexpr std::string_view of_numbers = "0123456789.-+";
+    if (of_numbers.find(*at_) != std::string_view::npos) {
+        const std::string_view behind = text_.substr(column, 20);
+        const std::string_view number = behind.substr(0, behind.find_first_not_of(of_numbers));
         return fail_at(column, GrblStatus::expected_letter,
-                       fmt::format("{} has no letter before it; write e.g. X{}", text_.substr(column, stop - column),
-                                   text_.substr(column, stop - column)));
+                       fmt::format("{} has no letter before it; write e.g. X{}", number, number));
     }
     if (c < 0x20 || c >= 0x7f) {
         return fail_at(

@@ -24,6 +24,7 @@ struct RefusedLine {
 const RefusedLine refused[] = {
     // letters and numbers
     {"12", 1, "1", 1, "no letter before it"},
+    {"12\xEF", 1, "1", 1, "12 has no letter before it; write e.g. X12"},
     {"G1 X", 4, "X", 2, "X has no number"},
     {"G0 X-", 4, "X-", 2, "no number"},
     {"G0 X.", 4, "X.", 2, "no number"},
