@@ -114,9 +114,11 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     data.program_name = program_name;
     data.rack_name = rack.config().name;
     data.verdict = {outcome.good(), verdict_text(outcome)};
+    // Of a job that ended early, moves and path are those of the plan, not those that were driven.
+    const bool whole = outcome.ended.has_value();
     data.numbers = {{"Time of the job", fmt::format("{:.3f}", to_seconds(outcome.time)), "s"},
-                    {"Path", fmt::format("{:.1f}", outcome.path_mm), "mm"},
-                    {"Moves", fmt::format("{}", moves_of(rack.config(), outcome)), ""},
+                    {whole ? "Path" : "Planned path", fmt::format("{:.1f}", outcome.path_mm), "mm"},
+                    {whole ? "Moves" : "Planned moves", fmt::format("{}", moves_of(rack.config(), outcome)), ""},
                     {"Max deviation", fmt::format("{:.4f}", outcome.max_deviation.mm), "mm"}};
     if (!rack.config().point_to_point())
         data.numbers.push_back({"Chip segments", fmt::format("{}", outcome.chip_segments), ""});
@@ -170,11 +172,14 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
 std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
     std::string out = fmt::format("{}\n", verdict_text(outcome));
     out += fmt::format("  rack        {}\n", config.name);
-    out += fmt::format("  time        {:.3f} s (planned {:.3f} s), {}, {}, {}\n", to_seconds(outcome.time),
-                       outcome.run.plan.seconds, count_noun(moves_of(config, outcome), "move"),
-                       count_noun(outcome.run.plan.dwells, "dwell"), count_noun(outcome.run.plan.stops, "stop"));
-    out += fmt::format("  path        {:.3f} mm, max deviation from the program {:.4f} mm", outcome.path_mm,
-                       outcome.max_deviation.mm);
+    const bool whole = outcome.ended.has_value();
+    const std::string counts =
+        fmt::format("{}, {}, {}", count_noun(moves_of(config, outcome), "move"),
+                    count_noun(outcome.run.plan.dwells, "dwell"), count_noun(outcome.run.plan.stops, "stop"));
+    out += fmt::format("  time        {:.3f} s (planned {:.3f} s{}{}{}\n", to_seconds(outcome.time),
+                       outcome.run.plan.seconds, whole ? "), " : " with ", counts, whole ? "" : ")");
+    out += fmt::format("  path        {:.3f} mm{}, max deviation from the program {:.4f} mm", outcome.path_mm,
+                       whole ? "" : " planned", outcome.max_deviation.mm);
     if (outcome.max_deviation.line > 0)
         out += fmt::format(" in line {} at {:.3f} s", outcome.max_deviation.line, to_seconds(outcome.max_deviation.at));
     if (outcome.tolerance_mm > 0) out += fmt::format(" (tolerance {:.4f} mm)", outcome.tolerance_mm);
