@@ -85,8 +85,9 @@ void clear_io8255_outputs(Rack& rack, const StopReaction&) {
 }
 
 constexpr std::array<StopReaction, 1> io8255_stops = {
-    {{"io8255", every_stop, StopCategory::category_0, StopBy::latch, "its outputs go to 0; handshakes continue",
-      milliseconds(2), false, clear_io8255_outputs, StopOrder::digital_outputs}}};
+    {{"io8255", every_stop, StopCategory::category_0, StopBy::latch,
+      "its outputs go to 0, bytes that no peripheral has taken are discarded; handshakes continue", milliseconds(2),
+      false, clear_io8255_outputs, StopOrder::digital_outputs}}};
 
 }  // namespace
 

@@ -62,7 +62,8 @@ releases it:
 - **A new start requires both**: the reset and a new command.
 - **No remembered word switches an output on.** A digital output of a card that a stop cleared stays low until the
   host writes its bit low, then high (or resets the card): a word that a program has kept from before the stop raises
-  nothing. The card reports the first output that stays low for this reason.
+  nothing. The card reports the first output that stays low for this reason. A control word of an IO8255 releases
+  no output. A strobed byte is data, not a level: a stop discards the byte that waits, and the next one goes out whole.
 - `motionrack run` and `motionrack home` end with exit code 4 and the sentence of the latch; by the STOP command and
   Ctrl-C with 130.
 

@@ -161,12 +161,16 @@ void Card::put(IoPort port, unsigned value, unsigned mask) {
         report(CardCondition::outputs_held, static_cast<std::int64_t>(p), low);
 }
 
+/// The host writes port A or B. A strobed byte goes out whole or not at all.
 void Card::put_byte(PortGroup group, unsigned value) {
     const PortModes now = modes();
     if (now.is_input(group)) return;
-    put(port_of(group), value, 0xFF);
-    if (!now.is_strobed(group)) return;
+    if (!now.is_strobed(group)) return put(port_of(group), value, 0xFF);
     const std::size_t g = index_of(group);
+    std::uint16_t latch = state_.latch[g];
+    const std::uint32_t low = sim::put_unless_held({static_cast<std::uint16_t>(value), 0xFF}, latch, state_.held[g]);
+    if (low != 0) return report(CardCondition::byte_refused, static_cast<std::int64_t>(g), low);
+    state_.latch[g] = latch;
     if (state_.full[g] != 0 && std::exchange(state_.reported_lost[g], std::uint16_t{1}) == 0)
         report(CardCondition::byte_overwritten, static_cast<std::int64_t>(g));
     state_.full[g] = 1;
@@ -174,8 +178,7 @@ void Card::put_byte(PortGroup group, unsigned value) {
 
 void Card::set_modes(std::uint8_t word) {
     if (mode::A_MODE.get(word) > 1) return report(CardCondition::both_directions, word);
-    state_ = State{};
-    state_.control = word;
+    state_ = State{.control = word, .held = state_.held, .reported_held = state_.reported_held};
 }
 
 void Card::set_bit(std::uint8_t word) {
@@ -191,12 +194,22 @@ void Card::set_bit(std::uint8_t word) {
 }
 
 void Card::clear_outputs() {
-    for (std::size_t port = 0; port < port_count; ++port) {
-        state_.held[port] |= state_.latch[port];
-        state_.latch[port] = 0;
-    }
+    const PortModes now = modes();
+    for (const PortGroup group : groups)
+        if (now.is_strobed(group) && !now.is_input(group)) discard_byte(group);
+    for (std::size_t port = 0; port < port_count; ++port)
+        state_.held[port] |= std::exchange(state_.latch[port], std::uint16_t{0});
     state_.reported_held = 0;
     drive();
+}
+
+/// A stop withdraws the byte of a strobed output; the next one goes out whole.
+void Card::discard_byte(PortGroup group) {
+    const std::size_t g = index_of(group);
+    if (std::exchange(state_.full[g], std::uint16_t{0}) != 0)
+        report(CardCondition::byte_discarded, static_cast<std::int64_t>(g));
+    state_.latch[g] = 0;
+    state_.reported_lost[g] = 0;
 }
 
 // ---- handshakes

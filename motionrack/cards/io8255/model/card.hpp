@@ -30,7 +30,7 @@ class Card final : public sim::Device, public sim::ByteDevice {
     std::uint8_t peek(std::uint8_t port) const override;
 
     /// Sets all outputs that no handshake drives low, without an access of the bus. Each that was high stays low until
-    /// the host writes it low, then high, or sets the modes.
+    /// the host writes it low, then high. Discards the bytes of strobed outputs, whose lines no stop holds.
     void clear_outputs();
 
     // ---- inspection
@@ -57,6 +57,7 @@ class Card final : public sim::Device, public sim::ByteDevice {
     unsigned driven_c() const;
     void put(IoPort port, unsigned value, unsigned mask);
     void put_byte(PortGroup group, unsigned value);
+    void discard_byte(PortGroup group);
     void set_modes(std::uint8_t word);
     void set_bit(std::uint8_t word);
     void strobe(PortGroup group, bool high);

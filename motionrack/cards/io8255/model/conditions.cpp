@@ -40,6 +40,16 @@ std::string what_happened(const sim::Condition& c) {
                 "the outputs of port {} with the bits {:02X}h stayed low: a stop of the machine cleared them; write "
                 "them low first, then high",
                 port_letter(c.a), c.b);
+        case CardCondition::byte_discarded:
+            return fmt::format(
+                "a stop of the machine discarded the byte at port {} that the peripheral had not taken; write it again "
+                "if it is still needed",
+                port_letter(c.a));
+        case CardCondition::byte_refused:
+            return fmt::format(
+                "a byte at port {} was not put out: its bits {:02X}h stay low, since a stop of the machine cleared "
+                "them; write them low first, then high",
+                port_letter(c.a), c.b);
     }
     return fmt::format("condition {} ({}, {})", c.code, c.a, c.b);
 }

@@ -239,15 +239,87 @@ TEST(Io8255Stop, SetsOutputsLowUntilTheyAreWrittenLowThenHigh) {
     EXPECT_EQ(rig.driven("c"), 0x80u);
 }
 
-TEST(Io8255Stop, KeepsHandshakes) {
-    Started rig(strobed(PortGroup::a, false));
-    rig.port.out(port_a, 0x77);
+TEST(Io8255Stop, AControlWordReleasesNoOutput) {
+    Started rig(all_outputs);
+    rig.port.out(port_a, 0x0F);
+    rig.port.out(port_c, 0x80);
     rig.card.clear_outputs();
-    rig.kernel.settle();
-    EXPECT_EQ(rig.driven("a"), 0u);
-    EXPECT_EQ(rig.level("pc7"), 0) << "OBF";
-    rig.pulse("pc6_in");
-    EXPECT_EQ(rig.level("pc7"), 1);
+    rig.set_modes(all_outputs);
+    rig.set_modes({});
+    rig.set_modes(all_outputs);
+    rig.port.out(port_a, 0xFF);
+    EXPECT_EQ(rig.driven("a"), 0xF0u) << "a word from before the stop";
+    rig.bit(7, 1);
+    EXPECT_EQ(rig.driven("c"), 0u);
+    EXPECT_THAT(rig.conditions(), ElementsAre(CardCondition::outputs_held)) << "once a stop, not once a control word";
+    rig.port.out(port_a, 0x00);
+    rig.port.out(port_a, 0x0F);
+    EXPECT_EQ(rig.driven("a"), 0x0Fu);
+}
+
+TEST(Io8255Stop, DiscardsTheByteThatAPeripheralHasNotTaken) {
+    for (const StrobedCase& of : strobed_outputs) {
+        Started rig(strobed(of.group, false));
+        enable(rig, of);
+        rig.port.out(of.port, 0x77);
+        rig.card.clear_outputs();
+        rig.kernel.settle();
+        EXPECT_EQ(rig.driven(of.letter), 0u);
+        EXPECT_EQ(rig.level(of.flag), 1) << "OBF: the 0 on the lines is no byte";
+        EXPECT_EQ(rig.level(of.request), 1) << "the handshake goes on";
+        EXPECT_THAT(rig.conditions(), ElementsAre(CardCondition::byte_discarded));
+        EXPECT_THAT(rig.sentence(), HasSubstr("discarded the byte at port "));
+        rig.card.clear_outputs();
+        EXPECT_EQ(rig.conditions().size(), 1u) << "no byte waits";
+    }
+}
+
+TEST(Io8255Stop, KeepsReceivedBytes) {
+    for (const StrobedCase& of : strobed_inputs) {
+        Started rig(strobed(of.group, true));
+        enable(rig, of);
+        rig.set_port(of.letter, 0x3C);
+        rig.pulse(of.strobe);
+        rig.card.clear_outputs();
+        rig.kernel.settle();
+        EXPECT_EQ(rig.level(of.flag), 1) << "IBF";
+        EXPECT_EQ(rig.level("int"), 1);
+        EXPECT_EQ(rig.port.in(of.port), 0x3C);
+        EXPECT_THAT(rig.conditions(), IsEmpty());
+    }
+}
+
+TEST(Io8255Stop, PutsOutWholeBytesAfterwards) {
+    for (const StrobedCase& of : strobed_outputs) {
+        Started rig(strobed(of.group, false));
+        rig.port.out(of.port, 0x77);
+        rig.pulse(of.strobe);
+        rig.card.clear_outputs();
+        rig.kernel.settle();
+        EXPECT_EQ(rig.driven(of.letter), 0u);
+        rig.port.out(of.port, 0x73);
+        EXPECT_EQ(rig.driven(of.letter), 0x73u);
+        EXPECT_EQ(rig.level(of.flag), 0);
+        EXPECT_THAT(rig.conditions(), IsEmpty()) << "the byte before the stop had been taken";
+    }
+}
+
+TEST(Io8255Stop, HandsOverNoByteWithABitThatItHolds) {
+    for (const StrobedCase& of : strobed_outputs) {
+        Started rig(all_outputs);
+        rig.port.out(of.port, 0x0F);
+        rig.card.clear_outputs();
+        rig.set_modes(strobed(of.group, false));
+        rig.port.out(of.port, 0xF3);
+        EXPECT_EQ(rig.driven(of.letter), 0u);
+        EXPECT_EQ(rig.level(of.flag), 1) << "OBF";
+        EXPECT_THAT(rig.conditions(), ElementsAre(CardCondition::byte_refused));
+        EXPECT_THAT(rig.sentence(), HasSubstr("was not put out: its bits 03h stay low"));
+        rig.port.out(of.port, 0x0C);
+        EXPECT_EQ(rig.driven(of.letter), 0x0Cu) << "the byte before had these bits low";
+        EXPECT_EQ(rig.level(of.flag), 0);
+        EXPECT_EQ(rig.conditions().size(), 1u);
+    }
 }
 
 // ---- time

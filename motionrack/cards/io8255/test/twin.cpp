@@ -6,7 +6,8 @@ namespace motionrack::io8255::twin {
 namespace {
 
 constexpr int first_of_c = 16;
-constexpr int code_no_register = 1, code_mode_2 = 2, code_lost = 3, code_overwritten = 4, code_flag = 5, code_held = 6;
+constexpr int code_no_register = 1, code_mode_2 = 2, code_lost = 3, code_overwritten = 4, code_flag = 5, code_held = 6,
+              code_discarded = 7, code_refused = 8;
 
 bool bit_of(int value, int number) {
     return (value >> number) % 2 != 0;
@@ -148,6 +149,7 @@ void Twin::write(int at, int value) {
     if (at > 3) return notes_.push_back({code_no_register, at, value});
     if (at == 3 && value >= 128) return control(value);
     if (at == 3) return bit(value / 2 % 8, value % 2 != 0);
+    if (at < 2 && sends(at)) return send(at, value);
     int kept_low = 0;
     for (int i = 0; i < 8; ++i) {
         const int line = 8 * at + i;
@@ -156,9 +158,24 @@ void Twin::write(int at, int value) {
         latch(line, bit_of(value, i), at, kept_low);
     }
     complain(at, kept_low);
-    if (at == 2) return;
+}
+
+bool Twin::sends(int group) const {
+    const Group& g = groups_[static_cast<std::size_t>(group)];
+    return g.strobed && !g.input;
+}
+
+/// The host writes a byte for a peripheral.
+void Twin::send(int at, int value) {
     Group& g = groups_[static_cast<std::size_t>(at)];
-    if (!g.strobed || g.input) return;
+    int stopped = 0;
+    for (int i = 0; i < 8; ++i) {
+        Cell& cell = cells_[static_cast<std::size_t>(g.first + i)];
+        cell.stopped = cell.stopped && bit_of(value, i);
+        if (cell.stopped) stopped += 1 << i;
+    }
+    if (stopped != 0) return notes_.push_back({code_refused, at, stopped});
+    for (int i = 0; i < 8; ++i) cells_[static_cast<std::size_t>(g.first + i)].latch = bit_of(value, i);
     if (!g.obf && !g.complained) {
         notes_.push_back({code_overwritten, at, 0});
         g.complained = true;
@@ -179,8 +196,7 @@ void Twin::control(int word) {
     groups_[1].strobed = bit_of(word, 2);
     groups_[1].input = bit_of(word, 1);
     lower_input_ = bit_of(word, 0);
-    for (Cell& cell : cells_) cell.latch = cell.stopped = false;
-    complained_ = false;
+    for (Cell& cell : cells_) cell.latch = false;
     lay_out();
 }
 
@@ -198,6 +214,14 @@ void Twin::bit(int number, bool high) {
 }
 
 void Twin::stop() {
+    for (int at = 0; at < 2; ++at) {
+        if (!sends(at)) continue;
+        Group& g = groups_[static_cast<std::size_t>(at)];
+        if (!g.obf) notes_.push_back({code_discarded, at, 0});
+        g.obf = true;
+        g.complained = false;
+        for (int i = 0; i < 8; ++i) cells_[static_cast<std::size_t>(g.first + i)].latch = false;
+    }
     for (Cell& cell : cells_) {
         cell.stopped = cell.stopped || cell.latch;
         cell.latch = false;

@@ -50,6 +50,8 @@ class Twin {
     bool seen(int line) const;
     void latch(int line, bool high, int port, int& kept_low);
     void complain(int port, int kept_low);
+    bool sends(int group) const;
+    void send(int at, int value);
     void control(int word);
     void bit(int number, bool high);
 
