@@ -11,6 +11,7 @@
 #include <motionrack/cards/databoard4002/model/bus.hpp>
 #include <motionrack/cards/databoard4002/model/card.hpp>
 #include <motionrack/cards/databoard4002/trim_text.hpp>
+#include <motionrack/rack/byte_bus.hpp>
 #include <motionrack/rack/databoard4002_card.hpp>
 
 namespace motionrack::rack {
@@ -87,7 +88,7 @@ constexpr ByteValue inspected[] = {
     {"EVENT", [](const db::Card& card) { return static_cast<double>(card.event_word()); }},
 };
 
-class Databoard4002Card final : public MotionCard {
+class Databoard4002Card final : public ByteBusCard<MotionCard> {
   public:
     Databoard4002Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log, std::shared_ptr<db::Bus> bus)
         : name_(config.name),
@@ -105,14 +106,6 @@ class Databoard4002Card final : public MotionCard {
     const std::string& name() const override { return name_; }
     sim::DeviceId device() const override { return card_.id(); }
     const CardMap& map() const override { return db::card_map(); }
-    std::span<const int> bus_widths() const override {
-        static constexpr int bytes[] = {8};
-        return bytes;
-    }
-    std::uint32_t bus_read(int, std::uint32_t address) override { return port_.in(static_cast<std::uint8_t>(address)); }
-    void bus_write(int, std::uint32_t address, std::uint32_t value) override {
-        port_.out(static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(value));
-    }
 
     Result<std::int64_t> inspect(std::string_view name) const override {
         std::vector<std::string_view> more;
@@ -198,7 +191,6 @@ class Databoard4002Card final : public MotionCard {
 
     std::span<const std::string_view> fault_names() const override { return db::Card::fault_names(); }
     bool fault(std::string_view name, double value, Instant now) override { return card_.fault(name, value, now); }
-    sim::VirtualHost& host() override { return port_; }
     sim::VirtualBytePort* byte_port() override { return &port_; }
     bool speaks_for(sim::DeviceId id) const override { return id == card_.id() || id == bus_->id(); }
     std::string describe(const sim::Condition& condition) const override { return db::describe(condition, name_); }

@@ -2,6 +2,7 @@
 #include <array>
 #include <motionrack/cards/io8255/map.hpp>
 #include <motionrack/cards/io8255/model/card.hpp>
+#include <motionrack/rack/byte_bus.hpp>
 #include <motionrack/rack/io8255_card.hpp>
 #include <motionrack/rack/own_pins.hpp>
 #include <motionrack/rack/rack.hpp>
@@ -30,7 +31,7 @@ void* io8255_of(RackCard& card) {
 /// Value beside the registers: the control word, which the host cannot read.
 constexpr std::string_view control_word = "CONTROL_WORD";
 
-class Io8255Card final : public Card {
+class Io8255Card final : public ByteBusCard<Card> {
   public:
     Io8255Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log)
         : name_(config.name),
@@ -43,14 +44,6 @@ class Io8255Card final : public Card {
     const std::string& name() const override { return name_; }
     sim::DeviceId device() const override { return card_.id(); }
     const CardMap& map() const override { return io8255::card_map(); }
-    std::span<const int> bus_widths() const override {
-        static constexpr int bytes[] = {8};
-        return bytes;
-    }
-    std::uint32_t bus_read(int, std::uint32_t address) override { return port_.in(static_cast<std::uint8_t>(address)); }
-    void bus_write(int, std::uint32_t address, std::uint32_t value) override {
-        port_.out(static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(value));
-    }
 
     Result<std::int64_t> inspect(std::string_view name) const override {
         if (name == control_word) return card_.control_word();
@@ -64,7 +57,6 @@ class Io8255Card final : public Card {
     std::vector<CardCounter> counters() const override { return {}; }
     std::int64_t counter(const CardCounter&) override { return 0; }
 
-    sim::VirtualHost& host() override { return port_; }
     sim::VirtualBytePort* byte_port() override { return &port_; }
     std::string describe(const sim::Condition& condition) const override { return io8255::describe(condition, name_); }
 
