@@ -65,6 +65,20 @@ TEST(Io8255InARack, DrivesWiresToOtherCards) {
     EXPECT_EQ(*bench.session->peek("desk", "CONTROL_WORD"), io8255::word_of(a_reads));
 }
 
+TEST(Io8255InARack, SwitchesSignalLamps) {
+    DeskBench bench(desk_example());
+    const auto lit = [&](const char* lamp) { return *bench.session->part(std::string(lamp) + ".lit"); };
+    unsigned line = 5;
+    for (const char* lamp : {"green", "yellow", "red"}) {
+        EXPECT_EQ(lit(lamp), 0) << lamp;
+        bench.write("OUT_B", 1u << line++);
+        EXPECT_EQ(lit(lamp), 1) << lamp;
+    }
+    react(bench.session->rack(), StopSource::emergency_stop);
+    ASSERT_TRUE(bench.session->advance(1'000));
+    EXPECT_EQ(lit("red"), 0);
+}
+
 TEST(Io8255InARack, ItsInterruptWakesTheHostAtTheEndOfAStrobe) {
     DeskBench bench;
     io8255::PortModes modes;
