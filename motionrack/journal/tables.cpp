@@ -46,9 +46,9 @@ Entry entry_of(const Statement& row) {
 
 /// Inside a transaction: adds links to entries without one.
 Result<void> link_entries(const Database& database) {
-    Statement rows(database.get(), all_entries);
-    rows.bind(1, 0);
     Statement set(database.get(), "UPDATE entry SET link = ?1 WHERE number = ?2");
+    Statement rows(database.get(), all_entries);  // the last to be prepared: its error is the one reported below
+    rows.bind(1, 0);
     ChainEnd head;
     while (rows.row()) {
         const Entry entry = entry_of(rows);
