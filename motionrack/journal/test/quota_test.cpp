@@ -9,6 +9,7 @@
 namespace motionrack::journal {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 TEST_F(JournalFile, WarnsBeforeItsQuotaAndKeepsTheNewestEntriesWithinIt) {
@@ -37,7 +38,7 @@ TEST_F(JournalFile, WarnsBeforeItsQuotaAndKeepsTheNewestEntriesWithinIt) {
         }
     }
     ASSERT_GT(count(), 2u);
-    EXPECT_THAT(reported[0], testing::AllOf(HasSubstr("% of its quota of 0.4 MB"), HasSubstr("copy the file first")));
+    EXPECT_THAT(reported[0], AllOf(HasSubstr("% of its quota of 0.4 MB"), HasSubstr("copy the file first")));
     EXPECT_THAT(reported[1], HasSubstr("has reached its quota of 0.4 MB: entries before number"));
     const auto entries = journal->read({0, "", 10000});
     EXPECT_LT(entries->size(), 2000u);
@@ -62,6 +63,45 @@ TEST_F(JournalFile, KeepsItsHundredNewestEntriesBeyondItsQuota) {
     const auto reported = journal->read({0, "journal", 1000});
     ASSERT_EQ(reported->size(), 1u) << "with nobody to call, the warning is in the journal";
     EXPECT_THAT(reported->front().text, HasSubstr("of its quota of 0.2 MB"));
+}
+
+/// Each note is an entry, too: one after each removal would replace the other entries.
+TEST_F(JournalFile, WritesOnceThatItsHundredNewestEntriesExceedItsQuota) {
+    std::vector<std::string> reported;  // each before write() returns
+    JournalSettings settings;
+    settings.max_bytes = 200'000;
+    settings.on_quota = [&](const std::string& sentence) { reported.push_back(sentence); };
+    const auto journal = *Journal::open(path_, settings);
+    for (int i = 0; i < 150; ++i) EXPECT_GT(write(*journal, "audit", std::string(4'000, 'x')), i);
+    const auto entries = journal->read({0, "", 1000});
+    EXPECT_EQ(entries->size(), 100u);
+    EXPECT_EQ(entries->back().text, std::string(4'000, 'x'));
+    const auto notes = journal->read({0, "journal", 1000});
+    ASSERT_EQ(notes->size(), 1u) << "of the first removal";
+    EXPECT_THAT(notes->front().text, HasSubstr("The newest 100 alone exceed it: from now on each new entry replaces"));
+    EXPECT_EQ(reported.size(), 2u) << "the warning, and the note";
+    EXPECT_EQ(journal->check()->problem, "");
+}
+
+TEST_F(JournalFile, RemovesAsManyEntriesAtOnceAsItsQuotaNeeds) {
+    {
+        const auto journal = open();
+        for (int i = 0; i < 400; ++i) write(*journal, "audit", std::string(4'000, 'x'));
+        EXPECT_TRUE(journal->close());
+    }
+    std::vector<std::string> reported;
+    JournalSettings settings;
+    settings.max_bytes = 1'000'000;
+    settings.on_quota = [&](const std::string& sentence) { reported.push_back(sentence); };
+    const auto journal = *Journal::open(path_, settings);
+    write(*journal, "audit", "short");
+    write(*journal, "audit", "short");  // the note of the removal is stored before it
+    ASSERT_EQ(reported.size(), 2u);
+    EXPECT_THAT(reported[0], AllOf(HasSubstr("has reached its quota"), testing::Not(HasSubstr("exceed it"))));
+    EXPECT_THAT(reported[1], HasSubstr("% of its quota")) << "it is nearly full";
+    const auto entries = journal->read({0, "audit", 1000});
+    EXPECT_LT(entries->size(), 250u);
+    EXPECT_GT(entries->size(), 150u);
 }
 
 TEST_F(JournalFile, RemovesATenthOfItsEntriesAtItsQuota) {
