@@ -131,7 +131,7 @@ Result<void> Machine::resume() {
 }
 
 void Machine::stop(const StopOrigin& by) {
-    const StopReport report = stop_report(now(), by, state(), at_work());
+    const StopReport report = stop_report(now(), by, state(), publisher_.at_work());
     ordered_by_ = by.kind.empty() ? std::string() : report.text;
     rack_.stop_latch().stop();
     take_stop();
@@ -139,7 +139,7 @@ void Machine::stop(const StopOrigin& by) {
 }
 
 void Machine::cancel(const StopOrigin& by) {
-    const StopReport report = stop_report(now(), by, state(), at_work());
+    const StopReport report = stop_report(now(), by, state(), publisher_.at_work());
     programs_.drop();
     programs_.stream().stop();
     manual_.cancel();
@@ -151,7 +151,7 @@ void Machine::cancel(const StopOrigin& by) {
 }
 
 void Machine::reset(const StopOrigin& by) {
-    StopReport report = stop_report(now(), by, state(), at_work());
+    StopReport report = stop_report(now(), by, state(), publisher_.at_work());
     report.releases = idle(state());
     cancel();
     pending_stop_.request_reset(rack_.stop_latch().trips());

@@ -9,7 +9,8 @@
 //                            ├◄───────reset────────── error stop
 //                            └──service──► service: manual calls of a card's functions, see service.hpp
 //
-// A reset moves nothing; pending motion is dropped, and a new command is needed.
+// An error stop begins when every axis is at standstill; while one still decelerates the machine is stopping. A reset
+// moves nothing; pending motion is dropped, and a new command is needed.
 //
 // Only the motion thread touches the rack. Posted work runs there between two runs of the kernel, often in the middle
 // of a motion. So commands only record requests, and the motion thread's loop executes them.
@@ -145,10 +146,16 @@ class Machine {
     void step();
     void drive();
     void failed(const Error& error);
-    std::string at_work() const;
+    void enter_failures();
     void wait_for_standstill();
     void take_stop();
     void enter_error_stop(std::string source, std::string text);
+
+    /// Failure that ends all motion.
+    struct Failure {
+        std::string at_work;  ///< what it has ended
+        std::string text;
+    };
 
     MachineSettings settings_;
     rack::Rack rack_;
@@ -166,9 +173,10 @@ class Machine {
     StartConditions conditions_{
         {rack_, publisher_, enables_, validity_, door_, positions_, pending_stop_, manual_access_, service_}};
     bool quit_ = false;
-    bool stop_taken_ = false;    ///< the axes have received the stop of the stop latch
-    bool stop_ordered_ = false;  ///< the present error stop has no other cause than a command
-    std::string ordered_by_;     ///< description of the stop command in force; empty: none
+    bool stop_taken_ = false;        ///< the axes have received the stop of the stop latch
+    bool stop_ordered_ = false;      ///< the present error stop has no other cause than a command
+    std::vector<Failure> failures_;  ///< until every axis is at standstill
+    std::string ordered_by_;         ///< description of the stop command in force; empty: none
     ManualOperation manual_;
     ManualAccess manual_access_{*this};
     std::mutex lock_;

@@ -152,7 +152,6 @@ void ManualOperation::step_jogs(const std::function<void(const Error&)>& failed)
         if (one.position_valid || !parts_.validity.of(one.letter)) continue;
         parts_.validity.invalidate(one.letter);  // it stopped without a ramp, or has lost its counts
         parts_.alarms.supersede({&one.letter, 1});
-        jogs_.let_go();
         parts_.pending_stop.request();
         failed(one.how.error());
     }

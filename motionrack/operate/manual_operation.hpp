@@ -69,7 +69,8 @@ class ManualOperation {
     bool wants_homing() const { return home_wanted_.has_value(); }
 
     // ---- steps, for the loop of Machine
-    /// Continues all jogs by one slice. `failed` is called with each failure that ends all motion.
+    /// Continues all jogs by one slice. `failed` is called with each failure that ends all motion; other axes may still
+    /// decelerate.
     void step_jogs(const std::function<void(const Error&)>& failed);
     /// Homes the requested axes; returns when homing has ended. Errors: a failure that ends all motion.
     Result<void> step_homing();

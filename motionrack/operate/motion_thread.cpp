@@ -3,6 +3,7 @@
 
 #include <motionrack/operate/machine.hpp>
 #include <motionrack/rack/stop_reactions.hpp>
+#include <utility>
 
 namespace motionrack::operate {
 
@@ -133,6 +134,7 @@ void Machine::enter_error_stop(std::string source, std::string text) {
 void Machine::wait_for_standstill() {
     pending_stop_.end();
     manual_.end_stop();
+    if (!failures_.empty()) enter_failures();
     rack::StopLatch& latch = rack_.stop_latch();
     if (latch.latched() && state() != MachineState::error_stop)  // losses stay, even with an immediate reset
         enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
@@ -178,22 +180,25 @@ void Machine::drive() {
 
 // ---- failures
 
-/// Describes the running or pending action in a few words.
-std::string Machine::at_work() const {
-    if (programs_.runs()) return fmt::format("{}, line {}", programs_.name(), programs_.stream().current_line());
-    if (service_.on()) return "the service of card " + service_.card();
-    if (state() == MachineState::moving || state() == MachineState::hold)
-        return fmt::format("line {}", programs_.stream().current_line());
-    return state() == MachineState::homing ? "homing" : state() == MachineState::jogging ? "jog" : "machine";
+/// Ends all motion and drops all requests. Axes that still move first decelerate.
+void Machine::failed(const Error& error) {
+    failures_.push_back({publisher_.at_work(), error.text()});
+    programs_.stream().stop();
+    manual_.jogs().let_go();
+    if (!manual_.jogs().any() && !programs_.stream().has_work()) return enter_failures();
+    pending_stop_.request();
+    publisher_.enter(MachineState::stopping, error.text());
 }
 
-void Machine::failed(const Error& error) {
-    const std::string what = at_work();
+/// Enters the error stop of the failures. Call at standstill.
+void Machine::enter_failures() {
     programs_.drop();
     const rack::StopLatch& latch = rack_.stop_latch();
-    const bool known =
-        latch.latched() && latch.cause() != rack::StopSource::limit_switch && !alarm_source(latch).empty();
-    enter_error_stop(known ? alarm_source(latch) : what, error.text());
+    for (Failure& one : std::exchange(failures_, {})) {
+        const bool known =
+            latch.latched() && latch.cause() != rack::StopSource::limit_switch && !alarm_source(latch).empty();
+        enter_error_stop(known ? alarm_source(latch) : std::move(one.at_work), std::move(one.text));
+    }
 }
 
 }  // namespace motionrack::operate

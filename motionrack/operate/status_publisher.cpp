@@ -1,4 +1,6 @@
 // Collects the parts of a status and calls the listeners.
+#include <fmt/format.h>
+
 #include <motionrack/operate/axis_enables.hpp>
 #include <motionrack/operate/position_validity.hpp>
 #include <motionrack/operate/program_run.hpp>
@@ -21,6 +23,15 @@ void StatusPublisher::listen(std::function<void(const Status&)> call, std::funct
 void StatusPublisher::enter(MachineState state, std::string reason) {
     state_ = state;
     status_.reason = std::move(reason);
+}
+
+std::string StatusPublisher::at_work() const {
+    const ProgramRun& programs = sources_.programs;
+    if (programs.runs()) return fmt::format("{}, line {}", programs.name(), programs.stream().current_line());
+    if (sources_.service.on()) return "the service of card " + sources_.service.card();
+    if (state_ == MachineState::moving || state_ == MachineState::hold)
+        return fmt::format("line {}", programs.stream().current_line());
+    return state_ == MachineState::homing ? "homing" : state_ == MachineState::jogging ? "jog" : "machine";
 }
 
 // ---- spindle and coolant

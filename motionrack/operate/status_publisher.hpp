@@ -40,6 +40,8 @@ class StatusPublisher {
     /// Present state; status().state is the one at the last publish().
     MachineState state() const { return state_; }
     void enter(MachineState state, std::string reason = {});
+    /// Describes the running or pending action in a few words.
+    std::string at_work() const;
 
     // ---- spindle and coolant
     /// Updates spindle and coolant from an event of a program.

@@ -1,6 +1,8 @@
 // Commands of a machine: numbers that are none, queues that are full, and starts that are forbidden for good.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <utility>
@@ -180,6 +182,41 @@ TEST(Machine, FailsAtALineThatAMissingContactHasMadeImpossible) {
     o.at(2.1, [](Machine& m) { EXPECT_TRUE(m.line("G90 G0 X25", 1)); });
     o.run(3);
     EXPECT_NEAR(o.x(), 25, 1e-2);
+}
+
+/// More lines than the queue takes, so that the impossible one is read while those before it are executed.
+std::string line_read_in_motion() {
+    std::string program = "G21 G90\nG38.3 X20 F1200\n";
+    for (int i = 1; i <= 1700; ++i) program += fmt::format("G1 X{:.2f} F3000\n", 20 + 0.13 * i);
+    return program + "o1 if [#5070 EQ 0]\nG1 X9999\no1 endif\nM2\n";
+}
+
+TEST(Machine, StandsBeforeTheErrorStopOfALineThatItReadsInMotion) {
+    for (const bool resets : {false, true}) {
+        SCOPED_TRACE(resets);
+        Operated o(*rack::read_rack_file((source_root / "examples/16_probe/machine.toml").string()).config);
+        o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.begin_program(line_read_in_motion(), "touch.ngc")); });
+        bool was_idle = false, has_moved = false, is_reset = false;
+        double x = 0, moved_idle = 0;
+        o.each_status([&](const Status& status) {
+            const bool is_idle = idle(status.state);
+            if (is_idle && was_idle) moved_idle += std::fabs(status.axes[0].commanded - x);
+            was_idle = is_idle;
+            x = status.axes[0].commanded;
+            has_moved = has_moved || status.state == MachineState::moving;
+            if (resets && has_moved && status.state != MachineState::moving && !std::exchange(is_reset, true))
+                o.machine->reset();
+        });
+        o.run(12);
+        EXPECT_EQ(moved_idle, 0) << "it braked in the error stop";
+        EXPECT_EQ(o.machine->state(), resets ? MachineState::standstill : MachineState::error_stop);
+        EXPECT_THAT(o.states, testing::Contains("stopping"));
+        EXPECT_GT(x, 21) << "it moved";
+        EXPECT_LT(x, 240) << "lines before it were left out";
+        ASSERT_THAT(o.machine->status().alarms, testing::SizeIs(1));
+        EXPECT_THAT(o.machine->status().alarms[0].source, HasSubstr("touch.ngc, line"));
+        EXPECT_THAT(o.machine->status().alarms[0].text, HasSubstr("9999"));
+    }
 }
 
 TEST(StopReport, GivesTheReasonOfTheFirstNamedStop) {

@@ -1,7 +1,10 @@
 // Two servos, each behind a card that positions it alone.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <motionrack/rack/faults.hpp>
 #include <tests/text_of.hpp>
+#include <utility>
 
 #include "operated.hpp"
 
@@ -54,6 +57,54 @@ TEST(ServoPair, LosesThePositionOfTheCardThatIsWritten) {
     o.run(2);
     EXPECT_NEAR(o.machine->status().axes[0].commanded, 105, 0.3);
 }
+
+/// Two servos that are jogged, of which X stalls. The parameter: a reset while the other one still brakes.
+class StalledServo : public testing::TestWithParam<bool> {
+  protected:
+    StalledServo() : o_(carriage_and_lift()) {
+        o_.at(0.05, [](Machine& m) {
+            EXPECT_TRUE(m.manual().set_position('X', 100));
+            EXPECT_TRUE(m.manual().set_position('Z', 20));
+        });
+        o_.at(0.5, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('Z', 450, 100)); });
+        for (int i = 0; i < 50; ++i)
+            o_.at(0.5 + 0.05 * i, [i](Machine& m) { static_cast<void>(m.manual().jog('X', 50, {"a", i + 1, i > 0})); });
+        o_.at(1, [this](Machine& m) {
+            EXPECT_EQ(m.state(), MachineState::jogging);
+            EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.stall", "X"));
+            o_.each_status([this](const Status& status) { observe(status); });
+        });
+    }
+    /// Adds up the motion of Z while the machine reports that nothing moves.
+    void observe(const Status& status) {
+        const bool is_idle = idle(status.state);
+        if (is_idle && was_idle_) moved_idle_ += std::fabs(status.axes[1].commanded - z_);
+        was_idle_ = is_idle;
+        z_ = status.axes[1].commanded;
+        if (status.state != MachineState::jogging && std::exchange(resets_, false)) o_.machine->reset();
+    }
+
+    Operated o_;
+    bool resets_ = GetParam(), was_idle_ = false;
+    double z_ = 0, moved_idle_ = 0;
+};
+
+TEST_P(StalledServo, StopsTheOtherOneBeforeTheErrorStop) {
+    o_.run(6);
+    const Status& status = o_.machine->status();
+    EXPECT_LT(moved_idle_, 0.05) << "it stood whenever the machine said so";
+    EXPECT_EQ(status.state, GetParam() ? MachineState::standstill : MachineState::error_stop);
+    EXPECT_THAT(o_.states, testing::Contains("stopping"));
+    EXPECT_LT(z_, 350) << "its jog of 450 mm has ended, too";
+    EXPECT_FALSE(status.axes[0].position_valid);
+    EXPECT_TRUE(status.axes[1].position_valid);
+    ASSERT_THAT(status.alarms, testing::SizeIs(1));
+    EXPECT_EQ(status.alarms[0].source, "jog");
+    EXPECT_THAT(status.alarms[0].text, testing::HasSubstr("Axis X does not follow"));
+}
+
+INSTANTIATE_TEST_SUITE_P(AndAReset, StalledServo, testing::Bool(),
+                         [](const auto& each) { return each.param ? "WhileItBrakes" : "Never"; });
 
 }  // namespace
 }  // namespace motionrack::operate
