@@ -147,7 +147,7 @@ void ManualOperation::step_jogs(const std::function<void(const Error&)>& failed)
         return parts_.pending_stop.wanted() || parts_.rack.stop_latch().is_to_brake(letter);
     };
     for (const Jogs::Ended& one : jogs_.step(take, parts_.rack.kernel().now(), stops)) {
-        if (one.how || one.how.error().kind == ErrorKind::stopped) continue;
+        if (one.how) continue;
         parts_.publisher.status().reason = one.how.error().message;
         if (one.position_valid || !parts_.validity.of(one.letter)) continue;
         parts_.validity.invalidate(one.letter);  // it stopped without a ramp, or has lost its counts

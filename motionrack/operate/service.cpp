@@ -218,14 +218,16 @@ void Service::finish() {
     stop_ = false;
     if (pending_) std::exchange(pending_, std::nullopt)->ready(fail(ErrorKind::stopped, "Not called. " + sentence));
     if (const Callback reported = std::exchange(begun_, {})) reported(fail(ErrorKind::stopped, sentence));
-    if (!taken) return machine_.failed(taken.error());
-    if (machine_.publisher_.state() == MachineState::service && !machine_.rack_.stop_latch().latched())
+    if (!taken)
+        machine_.failed(taken.error());
+    else if (machine_.publisher_.state() == MachineState::service && !machine_.rack_.stop_latch().latched())
         machine_.publisher_.enter(machine_.enables_.any() ? MachineState::standstill : MachineState::disabled,
                                   sentence);
     else if (machine_.publisher_.state() == MachineState::stopping)
         machine_.publisher_.status().reason += note_;
     if (!machine_.rack_.stop_latch().latched()) note_.clear();
-    if (const Callback reported = std::exchange(ended_, {})) reported(sentence);
+    if (const Callback reported = std::exchange(ended_, {}))
+        reported(taken ? Result<std::string>(sentence) : tl::unexpected<Error>(taken.error()));
 }
 
 }  // namespace motionrack::operate

@@ -85,6 +85,22 @@ TEST_P(JogThatBreaks, KeepsOrInvalidatesThePositionAsAProgramDoesAndAlarms) {
 INSTANTIATE_TEST_SUITE_P(Faults, JogThatBreaks, testing::ValuesIn(broken_jogs),
                          [](const auto& each) { return std::string(each.param.name); });
 
+TEST(Machine, HasNoAlarmWhereAJogFailsThatHadNoPositionToLose) {
+    Operated o(carriage());
+    for (int n = 1; n < 40; ++n)
+        o.at(0.1 * n, [n](Machine& m) { static_cast<void>(m.manual().jog('X', 100, {"a", n, n > 1})); });
+    o.at(1.05, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::jogging);
+        EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.stall", "X"));
+    });
+    o.at(4, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::standstill);
+        EXPECT_THAT(m.status().reason, HasSubstr("Axis X does not follow"));
+        EXPECT_THAT(m.status().alarms, testing::IsEmpty());
+    });
+    o.run(4.1);
+}
+
 TEST(Machine, HasAValidPositionOnceOneIsDeclaredAfterLostSteps) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 20, 50)); });

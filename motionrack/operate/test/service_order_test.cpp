@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <motionrack/operate/service.hpp>
+#include <motionrack/rack/faults.hpp>
 #include <utility>
 
 #include "operated.hpp"
@@ -139,6 +140,73 @@ TEST(ServiceOrder, AStopAtAnyInstantOfTheStartEndsTheService) {
         EXPECT_EQ(o.machine->state(), MachineState::error_stop);
         EXPECT_FALSE(o.machine->status().axes[0].position_valid) << "the service had taken its card";
     }
+}
+
+/// A card whose service ends at 0.5 s, and that hangs from about then on until its watchdog has reset it.
+struct HangAtTheEnd {
+    int answers = 0;  ///< to the command that ends the service
+    std::string answer;
+    std::vector<std::string> alarms;  ///< their texts
+    double x = 0;
+    MachineState state = MachineState::disabled;
+};
+
+HangAtTheEnd hang_at(double hangs_at) {
+    Operated o(carriage());
+    HangAtTheEnd seen;
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.service().begin("board", {}, "", {})); });
+    o.at(0.5, [&](Machine& m) {
+        EXPECT_TRUE(m.service().end([&](const Result<std::string>& reported) {
+            ++seen.answers;
+            seen.answer = reported ? *reported : reported.error().message;
+        }));
+    });
+    o.at(hangs_at, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); });
+    o.at(hangs_at + 0.3, [](Machine& m) { m.reset(); });
+    o.at(hangs_at + 0.35, [](Machine& m) { static_cast<void>(m.manual().jog('X', 10)); });
+    o.at(hangs_at + 2, [](Machine& m) { m.reset(); });
+    o.at(hangs_at + 2.2, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 100)) << m.status().reason; });
+    o.at(hangs_at + 2.5, [](Machine& m) { EXPECT_TRUE(m.manual().jog_by('X', 5, 20)) << m.status().reason; });
+    o.run(hangs_at + 4);
+    for (const Alarm& alarm : o.machine->status().alarms) seen.alarms.push_back(alarm.text);
+    seen.x = o.x();
+    seen.state = o.machine->state();
+    return seen;
+}
+
+TEST(ServiceOrder, ACardThatIsNotTakenBackIsAnAlarmAndIsUsableOnceItAnswers) {
+    int not_taken = 0;
+    for (double at = 0.5; at < 0.54; at += 0.004) {
+        SCOPED_TRACE(testing::Message() << "it hangs at " << at << " s");
+        const HangAtTheEnd seen = hang_at(at);
+        EXPECT_EQ(seen.answers, 1) << "the end of the service is answered once";
+        EXPECT_EQ(seen.state, MachineState::standstill);
+        EXPECT_NEAR(seen.x, 105, 0.3);
+        if (seen.answer.find("was not Ready") == std::string::npos) continue;
+        ++not_taken;
+        EXPECT_THAT(seen.alarms, testing::Contains(HasSubstr("was not Ready")));
+    }
+    EXPECT_GT(not_taken, 0) << "it hung while it was initialised for the controller";
+}
+
+/// Work that was queued at the machine's parts, not by a command of the machine.
+TEST(ServiceOrder, NoServiceAndNoAccessWhileWorkIsQueuedAtStandstill) {
+    Operated o(two_axes());
+    const auto begin = [](Machine& m) { return refusal_of(m.service().begin("m", {}, "", {})); };
+    o.at(0.1, [=](Machine& m) {
+        m.manual().jogs().hold('X', 5, "w1");
+        EXPECT_EQ(m.state(), MachineState::standstill);
+        EXPECT_THAT(begin(m), HasSubstr("a command is still being executed"));
+        m.manual().jogs().let_go();
+        EXPECT_TRUE(m.programs().line("G21 G90 G1 X20 F600", 1, m.now()));
+        EXPECT_THAT(begin(m), HasSubstr("a command is still being executed"));
+        EXPECT_THAT(refusal_of(m.manual_access().request({"m", 16, 0, {}}, [](const auto&) {})),
+                    HasSubstr("The card was not accessed"));
+        m.cancel();
+    });
+    o.run(0.5);
+    EXPECT_EQ(o.x(), 10);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill);
 }
 
 TEST(ServiceOrder, NoServiceBeforeAPendingStopIsOver) {
