@@ -54,13 +54,15 @@ struct Channel {
 class ChangeSink {
   public:
     virtual ~ChangeSink() = default;
-    /// Receives a new value of channel `index`. `at` must not be earlier than the previous one.
+    /// Receives a new value of channel `index`. `at` is not earlier than the previous one; with
+    /// RecorderSettings::events, than the previous one of the same channel.
     virtual void change(std::size_t index, std::int64_t value, Instant at) = 0;
     /// Notifies the sink that all changes up to `at` were handed over.
     virtual void settle(Instant at) { (void)at; }
     /// Ends the recording at `end`. Errors: io, the first error.
     virtual Result<void> close(Instant end) { return (void)end, Result<void>(); }
-    /// Returns true if close() may be retried after an error, with further changes before it.
+    /// Returns true if close() may be retried after an error, with further changes before it; else the recording has
+    /// ended.
     virtual bool can_end_again() const { return true; }
 };
 

@@ -26,7 +26,7 @@ class JobRecorder {
     void input(const trace::RecordedInput& input) { file_->writer.input(input); }
     /// Writes the buffered events.
     void drain() { recorder_->drain(); }
-    /// Ends the file and stops listening. Errors: io.
+    /// Ends the file and stops listening, even on an error; another call returns the same error. Errors: io.
     Result<void> finish(const JobOutcome& outcome, trace::ReportData report);
 
     std::uint64_t events() const { return file_->writer.events(); }
@@ -38,6 +38,7 @@ class JobRecorder {
         void change(std::size_t index, std::int64_t value, Instant at) override { writer.event(index, at, value); }
         void settle(Instant at) override;
         Result<void> close(Instant at) override;
+        bool can_end_again() const override { return writer.is_open(); }
 
         trace::RecordingWriter writer;
         trace::RecordingEnd end;  ///< set before close()

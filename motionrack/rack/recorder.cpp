@@ -1,4 +1,4 @@
-// Collects changes and hands them over in order of time.
+// Collects changes and hands them over, in order of time unless they are events.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -371,7 +371,7 @@ Result<void> Recorder::finish() {
             fail(ErrorKind::io, fmt::format("{} {} of one instant exceed the limit of a recording and were omitted.",
                                             lost_, events_ ? "events" : "changes"));
     failed_ = !ended;
-    if (ended) stop_listening();
+    if (ended || !sink_->can_end_again()) stop_listening();
     return ended;
 }
 

@@ -1,9 +1,11 @@
 // Records wires, pulses, encoder lines and card values of a running rack into a sink while it runs.
 //
 //   kernel wires ──┐
-//   pulse edges ───┼──► changes in a buffer ──drain(), between runs, in order of time──► ChangeSink (VCD, CSV, HDF5)
+//   pulse edges ───┼──► changes in a buffer ──drain(), between runs──► ChangeSink (VCD, CSV, HDF5)
 //   encoder edges ─┤
 //   LP, EP ────────┘ sampled every period
+//
+// The changes come in order of time; those of `events` only within each channel.
 //
 // A pulse of X.step lasts half the interval to the next one, at most 5 us. X.dir changes 250 ns before the first pulse
 // in the new direction. Pins that the card drives on demand (its pulse outputs) are recorded directly if a pattern
@@ -82,8 +84,8 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     /// Hands over the buffered changes except those of the last microseconds, which may be incomplete. The recording
     /// does not depend on the instants of the calls. Call between runs.
     void drain_settled() { hand_over(rack_.kernel().now() - lag_); }
-    /// Ends the recording and stops listening. Errors: io; the recording then continues, so that finish() can be
-    /// retried.
+    /// Ends the recording and stops listening. Errors: io; if can_end_again(), the recording continues, so that
+    /// finish() can be retried.
     Result<void> finish();
     /// Returns true if the last finish() failed.
     bool failed() const { return failed_; }

@@ -91,21 +91,16 @@ class Hdf5Sink final : public ChangeSink {
   public:
     explicit Hdf5Sink(trace::RecordingWriter writer) : writer_(std::move(writer)) {}
 
-    void change(std::size_t index, std::int64_t value, Instant at) override {
-        if (ended_) writer_.event(index, at, value);
-    }
+    void change(std::size_t index, std::int64_t value, Instant at) override { writer_.event(index, at, value); }
     Result<void> close(Instant end) override {
-        if (!ended_) return ended_;
         trace::RecordingEnd what;
         what.at = end;
-        ended_ = writer_.close(what);
-        return ended_;
+        return writer_.close(what);
     }
-    bool can_end_again() const override { return ended_.has_value(); }
+    bool can_end_again() const override { return writer_.is_open(); }
 
   private:
     trace::RecordingWriter writer_;
-    Result<void> ended_;  // an error: the file is closed for good
 };
 
 Result<std::shared_ptr<ChangeSink>> make_hdf5_sink(const WaveFile& file, const Declaration& declared) {

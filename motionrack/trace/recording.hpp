@@ -99,7 +99,7 @@ class RecordingWriter {
   public:
     /// `began`: simulated time at which the recording starts. Errors: io.
     static Result<RecordingWriter> create(const std::string& path, const RecordingHead& head, Instant began);
-    /// Writes nothing until a created writer is moved here.
+    /// Ignores all data until a created writer is moved here.
     RecordingWriter();
     RecordingWriter(const RecordingWriter&) = delete;
     RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -116,22 +116,27 @@ class RecordingWriter {
     /// Makes all data up to `now` readable, even if the program is killed afterwards.
     void flush(Instant now);
     std::uint64_t events() const { return events_; }
-    /// Errors: io, the first error since the file was created.
+    /// Ends the file for good, even on an error: later data is ignored, and another call returns the result of the
+    /// first. Errors: io, the first error since the file was created.
     Result<void> close(const RecordingEnd& end);
+    /// Returns true from create() to close().
+    bool is_open() const { return samples_ != nullptr; }
 
   private:
     struct Signal;
     struct Samples;
+    Result<void> complete(const RecordingEnd& end);
     void write_axes(const RecordingHead& head);
     void make_signals(const RecordingHead& head);
     void make_samples(const RecordingHead& head);
 
     hdf5::Hdf5File file_;
     std::vector<Signal> signals_;
-    std::unique_ptr<Samples> samples_;
+    std::unique_ptr<Samples> samples_;  ///< nullptr: not open
     hdf5::Writer input_times_, input_texts_, flushed_;
     std::uint64_t events_ = 0;
     bool good_ = true;
+    Result<void> ended_;  ///< result of close()
 };
 
 /// Times and values of one signal or sampled quantity.

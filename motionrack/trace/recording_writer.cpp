@@ -156,6 +156,7 @@ void RecordingWriter::make_samples(const RecordingHead& head) {
 }
 
 void RecordingWriter::event(std::size_t signal, Instant at, std::int64_t value) {
+    if (!is_open()) return;
     Signal& one = signals_[signal];
     if (one.kind == SignalKind::levels && one.last == value) return;
     one.last = value;
@@ -167,6 +168,7 @@ void RecordingWriter::event(std::size_t signal, Instant at, std::int64_t value) 
 }
 
 void RecordingWriter::sample(Instant at, double deviation_mm, std::span<const AxisSample> axes) {
+    if (!is_open()) return;
     MOTIONRACK_ASSERT(axes.size() == samples_->axes.size());
     const auto note = [this](bool added) { good_ = good_ && added; };
     note(samples_->times.add(at.count()));
@@ -182,6 +184,7 @@ void RecordingWriter::sample(Instant at, double deviation_mm, std::span<const Ax
 }
 
 void RecordingWriter::input(const RecordedInput& input) {
+    if (!is_open()) return;
     const std::int64_t at = input.at.count();
     std::string text = input.text;
     text.resize(std::max<std::size_t>(text.size(), input_texts_.text_bytes()));
@@ -189,6 +192,7 @@ void RecordingWriter::input(const RecordedInput& input) {
 }
 
 void RecordingWriter::flush(Instant now) {
+    if (!is_open()) return;
     for (Signal& signal : signals_) good_ = signal.write() && good_;
     good_ = samples_->write() && good_;
     file_.flush();
@@ -198,9 +202,15 @@ void RecordingWriter::flush(Instant now) {
 }
 
 Result<void> RecordingWriter::close(const RecordingEnd& end) {
+    if (!is_open()) return ended_;
     flush(end.at);
     signals_.clear();
     samples_.reset();
+    ended_ = complete(end);
+    return ended_;
+}
+
+Result<void> RecordingWriter::complete(const RecordingEnd& end) {
     for (hdf5::Writer* writer : {&input_times_, &input_texts_, &flushed_}) *writer = hdf5::Writer();
     if (!good_) file_.set_trouble("could not be written, perhaps because the disk is full");
     MOTIONRACK_CHECK(file_.reopen());

@@ -31,9 +31,18 @@ class KeptChanges final : public ChangeSink {
     std::vector<Channel> channels_;
 };
 
+/// Cannot be ended.
+class LostSink final : public ChangeSink {
+  public:
+    void change(std::size_t, std::int64_t, Instant) override {}
+    Result<void> close(Instant) override { return fail(ErrorKind::io, "The disk is full."); }
+    bool can_end_again() const override { return false; }
+};
+
 /// A running rack whose time is sampled each 2 ms, from 1 ms on.
 struct SampledTime {
-    explicit SampledTime(bool breaks) : rack(*read_rack_text("card.c1 = \"mcx314\"").config), tap(rack.kernel()) {
+    explicit SampledTime(bool breaks, bool lost = false)
+        : rack(*read_rack_text("card.c1 = \"mcx314\"").config), tap(rack.kernel()) {
         rack.start();
         RecorderSettings settings;
         settings.period = milliseconds(2);
@@ -43,7 +52,8 @@ struct SampledTime {
             {{"seconds", ChannelKind::quantity},
              [this] { return std::bit_cast<std::int64_t>(to_seconds(rack.kernel().now())); }},
             {{"milliseconds", ChannelKind::number}, [this] { return rack.kernel().now() / milliseconds(1); }}};
-        settings.sink = [this](const Declaration& declared) {
+        settings.sink = [this, lost](const Declaration& declared) -> Result<std::shared_ptr<ChangeSink>> {
+            if (lost) return std::make_shared<LostSink>();
             return std::make_shared<KeptChanges>(kept, declared.channels);
         };
         recorder = std::move(*Recorder::create(rack, settings));
@@ -81,6 +91,13 @@ TEST(Recorder, EndsARunForEachSampleThatIsTakenBetweenRuns) {
     EXPECT_EQ(bench.kept, sample);
     EXPECT_TRUE(bench.recorder->finish());
     EXPECT_EQ(kernel.run_until(milliseconds(4)), sim::RunEnd::reached) << "a finished recorder ends no run";
+}
+
+TEST(Recorder, StopsListeningOnceItCannotBeEndedAnyMore) {
+    SampledTime bench(true, true);
+    EXPECT_FALSE(bench.recorder->finish());
+    EXPECT_EQ(bench.rack.kernel().run_until(milliseconds(4)), sim::RunEnd::reached) << "no sample is due";
+    EXPECT_FALSE(bench.recorder->finish()) << "it stays lost";
 }
 
 TEST(Recorder, LeavesItsTapToTheNextOne) {

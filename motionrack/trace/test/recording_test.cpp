@@ -121,6 +121,38 @@ TEST(ReportJson, ReadsTheMaximumDeviationUnderItsFormerName) {
     EXPECT_EQ(data->max_deviation->line, 3);
 }
 
+TEST(Recording, IgnoresWhatComesAfterItsEnd) {
+    const Scratch scratch;
+    const PlainRecording plain = busy(1000);
+    auto writer = RecordingWriter::create(scratch.path("a.h5"), plain.head, Instant{0});
+    ASSERT_TRUE(writer);
+    EXPECT_TRUE(writer->is_open());
+    plain.write(*writer);
+    ASSERT_TRUE(writer->close(plain.end));
+    EXPECT_FALSE(writer->is_open());
+    const std::string whole = file_text(scratch.path("a.h5"));
+    plain.write(*writer);
+    writer->input({whole_seconds(3), "stop"});
+    writer->flush(whole_seconds(4));
+    EXPECT_TRUE(writer->close(plain.end));
+    EXPECT_EQ(file_text(scratch.path("a.h5")), whole);
+}
+
+TEST(Recording, ReportsTheErrorOfItsEndAtEachFurtherEnd) {
+    const Scratch scratch;
+    const PlainRecording plain = busy(1000);
+    auto writer = RecordingWriter::create(scratch.path("a.h5"), plain.head, Instant{0});
+    ASSERT_TRUE(writer);
+    std::filesystem::remove(scratch.path("a.h5.incomplete"));
+    const Result<void> first = writer->close(plain.end);
+    ASSERT_FALSE(first);
+    EXPECT_FALSE(writer->is_open());
+    plain.write(*writer);
+    const Result<void> again = writer->close(plain.end);
+    ASSERT_FALSE(again);
+    EXPECT_EQ(again.error().message, first.error().message);
+}
+
 // ---- truncated
 
 /// Writes until it kills itself, with a flush after every `flush` events and more events after the last flush.
