@@ -136,7 +136,6 @@ Recorder::Recorder(Rack& rack, const RecorderSettings& settings)
       events_(settings.events),
       breaks_(settings.breaks),
       wants_all_(settings.signals.empty() && settings.sampled.empty()) {
-    buffer_.reserve(buffer_size);
     lag_ = recorded_within;
 }
 
@@ -163,6 +162,7 @@ Result<std::unique_ptr<Recorder>> Recorder::create(Rack& rack, const RecorderSet
         out->id_ = rack.kernel().add(*out, sim::Phase::observers, "recorder");
         out->is_device_ = true;
     }
+    out->reserve_buffer();
     out->listen();
     return out;
 }
@@ -292,12 +292,12 @@ void Recorder::begin(Duration after) {
 }
 
 void Recorder::push(Instant at, std::size_t channel, std::int64_t value, std::uint32_t place) {
-    if (buffer_.size() == buffer_size) {
+    if (buffer_.size() == buffer_size_) {
         ++lost_;
         return;
     }
     buffer_.push_back({at, static_cast<std::uint32_t>(channel), place, value});
-    if (buffer_.size() > buffer_size / 2) rack_.kernel().break_run();
+    if (buffer_.size() > buffer_size_ / 2) rack_.kernel().break_run();
 }
 
 void Recorder::wire_changed(sim::WireId wire, int level, Instant now) {
@@ -341,6 +341,13 @@ void Recorder::hand_over(Instant end) {
     }
     buffer_.erase(buffer_.begin(), rest);
     sink_->settle(std::min(now, end));
+}
+
+/// Edges come in bursts, samples one period after another.
+void Recorder::reserve_buffer() {
+    const bool samples_alone = heard_.empty() && wires_begin_ == wires_end_;
+    buffer_size_ = samples_alone ? std::min(max_buffered, max_samples_buffered * sampled_.size()) : max_buffered;
+    buffer_.reserve(buffer_size_);
 }
 
 /// Parts of the rack store their listeners, so this follows everything that can fail.

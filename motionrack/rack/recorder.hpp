@@ -128,6 +128,7 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     void choose_encoder(RunningAxis& axis);
     void choose_wires();
     void choose_counters();
+    void reserve_buffer();
     void listen();
     void stop_listening();
     void push(Instant at, std::size_t channel, std::int64_t value) { push(at, channel, value, place_of(channel)); }
@@ -136,7 +137,8 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     std::vector<BufferedChange>::iterator order_before(Instant end);
     void hand_over(Instant end);
 
-    static constexpr std::size_t buffer_size = 1 << 21;
+    // Changes, 24 bytes each. A run breaks when the buffer is half full; half the samples exceed those of one slice.
+    static constexpr std::size_t max_buffered = 1 << 21, max_samples_buffered = 1 << 16;
 
     Rack& rack_;
     std::vector<std::string> patterns_;
@@ -160,6 +162,7 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     std::vector<sim::WireId> followed_;
     std::vector<std::pair<std::size_t, std::function<std::int64_t()>>> sampled_;  ///< channels and their readings
     std::vector<BufferedChange> buffer_;
+    std::size_t buffer_size_ = 0;
     std::uint64_t lost_ = 0;
     Instant last_{};
 };

@@ -93,6 +93,17 @@ TEST(Recorder, EndsARunForEachSampleThatIsTakenBetweenRuns) {
     EXPECT_EQ(kernel.run_until(milliseconds(4)), sim::RunEnd::reached) << "a finished recorder ends no run";
 }
 
+TEST(Recorder, EndsARunBeforeItsBufferOfSamplesIsFull) {
+    SampledTime bench(false);
+    sim::Kernel& kernel = bench.rack.kernel();
+    int ended = 0;
+    for (; kernel.run_until(whole_seconds(200)) == sim::RunEnd::broken; ++ended) bench.recorder->drain();
+    bench.recorder->drain();
+    EXPECT_GT(ended, 1);
+    EXPECT_EQ(bench.kept.size(), 200'000u) << "two each 2 ms";
+    EXPECT_TRUE(bench.recorder->finish()) << "none was omitted";
+}
+
 TEST(Recorder, StopsListeningOnceItCannotBeEndedAnyMore) {
     SampledTime bench(true, true);
     EXPECT_FALSE(bench.recorder->finish());
