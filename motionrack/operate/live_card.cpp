@@ -95,11 +95,10 @@ void LiveCard::look_now_and_then() {
 }
 
 void LiveCard::look_beside_function() {
-    if (plugin_.view_again == nullptr) return look_now_and_then();
+    if (plugin_.view_while_waiting == nullptr) return look_now_and_then();
     if (!is_look_due()) return;
     polled_ = now();
-    rack::RegisterView view = registers_.view;
-    plugin_.view_again(bus(), view);
+    rack::RegisterView view = plugin_.view_while_waiting(bus());
     if (!lost_) registers_ = {std::move(view), host_.now()};
 }
 

@@ -40,7 +40,7 @@ Result<LivePlace> read_live_place(std::string_view text);
 /// real card of its type cannot be driven.
 Result<void> check_live_places(const rack::RackConfig& config, std::span<const LivePlace> places);
 
-/// All registers of a card, as last read.
+/// Registers of a card, as last read: while a function waits, only those whose reading does not disturb it.
 struct LiveRegisters {
     rack::RegisterView view;
     Instant at{};  ///< virtual time

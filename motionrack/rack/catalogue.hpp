@@ -177,9 +177,9 @@ struct CardPlugin {
                                   std::span<const std::unique_ptr<Card>> before);
     /// Reads the registers of a virtual or real card; nullptr if not supported. Errors: machine if no card answers.
     Result<RegisterView> (*view)(const CardBus& bus, bool clearing) = nullptr;
-    /// Rereads into a view the registers whose reading does not disturb a waiting function of `library`. nullptr:
+    /// Reads only the registers and values whose reading does not disturb a waiting function of `library`. nullptr:
     /// `view` disturbs none.
-    void (*view_again)(const CardBus& bus, RegisterView& view) = nullptr;
+    RegisterView (*view_while_waiting)(const CardBus& bus) = nullptr;
     /// Function library of a virtual or real card; nullptr: no library for manual calls.
     std::unique_ptr<FunctionLibrary> (*library)(const CardBus& bus) = nullptr;
     /// Sentence on why real cards of the type cannot be accessed; empty: they can, with `view` and `library`. A map

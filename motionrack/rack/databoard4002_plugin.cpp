@@ -141,6 +141,13 @@ std::uint8_t databoard4002_select(const RackCard& card) {
     return static_cast<std::uint8_t>(databoard4002_in(card).card_number);
 }
 
+RegisterView view_of_status(std::uint8_t stat) {
+    RegisterView view;
+    for (const RegisterInfo& reg : db::card_map().registers)
+        if (reg.name == "STAT") view.registers.push_back({&reg, "", stat});
+    return view;
+}
+
 /// Reads STAT, and POSITION and RATE by the card's commands P and R. These change no motion and no event; an unfinished
 /// sequence of argument bytes ends. Errors: machine if no card answers, or it is not Ready in time.
 Result<RegisterView> databoard4002_view(const CardBus& bus, bool) {
@@ -155,18 +162,15 @@ Result<RegisterView> databoard4002_view(const CardBus& bus, bool) {
                                                     bus.select));
     MOTIONRACK_TRY(const std::int64_t position, driver.position());
     MOTIONRACK_TRY(const int rate, driver.rate());
-    RegisterView view;
-    for (const RegisterInfo& reg : db::card_map().registers)
-        if (reg.name == "STAT") view.registers.push_back({&reg, "", stat});
+    RegisterView view = view_of_status(stat);
     view.values = {{"POSITION", "", position, "counts"}, {"RATE", "", rate, "rate at the output, 0 at standstill"}};
     return view;
 }
-/// Reads STAT again. The driver selects the card and reads STAT at any time, also within a command.
-void databoard4002_view_again(const CardBus& bus, RegisterView& view) {
+/// Reads STAT alone: the driver selects the card and reads STAT at any time, also within a command.
+RegisterView databoard4002_view_while_waiting(const CardBus& bus) {
     db::DriverSettings settings;
     settings.select = bus.select;
-    for (RegisterSnapshot& seen : view.registers)
-        if (seen.reg->name == "STAT") seen.word = db::Driver(*bus.bytes, *bus.host, settings).status().word;
+    return view_of_status(db::Driver(*bus.bytes, *bus.host, settings).status().word);
 }
 
 constexpr std::array<CardFault, 5> databoard4002_faults = {{
@@ -214,7 +218,7 @@ constinit const CardPlugin databoard4002_plugin = {
     .map = db::card_map,
     .make = make_databoard4002,
     .view = databoard4002_view,
-    .view_again = databoard4002_view_again,
+    .view_while_waiting = databoard4002_view_while_waiting,
     .library = databoard4002_library,
     .stop_reactions = databoard4002_stops,
     .faults = databoard4002_faults};

@@ -93,7 +93,8 @@ TEST_F(PanelOnADataBoard, ShowsItsStatusAnewWhileAFunctionWaits) {
         return read_at(shown) > read_at(before) + 0.9;
     });
     EXPECT_EQ(shown["registers"][0]["name"], "STAT") << shown;
-    EXPECT_EQ(shown["values"], before["values"]) << "a command would disturb the function";
+    EXPECT_EQ(shown["values"], json::array())
+        << "a command would disturb the function, and earlier values are not of now";
     EXPECT_TRUE(other.post("stop").contains("done"));
     EXPECT_THAT(served->answer()["error"]["message"].get<std::string>(), HasSubstr("Stopped on request"));
     until_stopped(other);

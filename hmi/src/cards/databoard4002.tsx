@@ -73,7 +73,7 @@ function LiveDataboard({ card, place }: { card: CardInfo; place: string }): JSX.
           <p class="tabular">
             Position {whole(valueOf(seen, 'POSITION'))} counts, rate {whole(valueOf(seen, 'RATE'))}
           </p>
-          <p class="hint">While a function waits, STAT alone is read; position and rate follow when it has ended.</p>
+          <p class="hint">While a function waits, STAT alone is read: position and rate are not known until it ends.</p>
         </>
       )}
     </LiveCard>
