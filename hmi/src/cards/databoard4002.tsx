@@ -71,7 +71,7 @@ function LiveDataboard({ card, place }: { card: CardInfo; place: string }): JSX.
         <>
           {stat !== undefined && <Flags register={stat} word={wordOf(seen, 'STAT')} />}
           <p class="tabular">
-            Position {whole(valueOf(seen, 'POSITION'))} counts, rate {whole(valueOf(seen, 'RATE'))}
+            Position {whole(valueOf(seen, 'POSITION'))} counts, rate {whole(valueOf(seen, 'RATE'))} (register value)
           </p>
           <p class="hint">While a function waits, STAT alone is read: position and rate are not known until it ends.</p>
         </>
@@ -90,7 +90,7 @@ function VirtualDataboard({ card }: { card: CardInfo }): JSX.Element {
           <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />
         ))}
         <p class="tabular">
-          Rate {whole(valueOf(data.value, 'RATE'))}, {analogOutputs(data.value?.pins)}
+          Rate {whole(valueOf(data.value, 'RATE'))} (register value), {analogOutputs(data.value?.pins)}
         </p>
         {why.value !== '' && <p class="hint">{why.value}</p>}
         <Quantities card={card} />

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view commands = "Commands", events = "Status and events", moves = "Complete moves",
                            slopes = "Slope";
-constexpr std::string_view counts = "counts", rate_unit = "16384 - 400 kHz / f";
+constexpr std::string_view counts = "counts";
 
 // ---- arguments
 
@@ -33,7 +33,7 @@ constexpr std::array marks = {ValueInfo{event::ZERO, "zero pulse"}, ValueInfo{ev
 constexpr std::array deviation_data = {counts_of("deviation that lock allows", 0)};
 constexpr std::array number_data = {counts_of("from the position at the next G")};
 constexpr std::array target_data = {counts_of("the absolute target of the next G")};
-constexpr std::array rate_data = {number("rate", 0, map::max_rate, rate_unit, "0 switches the relay off", 0)};
+constexpr std::array rate_data = {number("rate", 0, map::max_rate, {}, map::rate_law, 0)};
 constexpr std::array enable_data = {
     ArgumentInfo{"enables", 1, event::maskable, {}, "events to report", event::POSITION, event_bits, true}};
 constexpr std::array move_to_data = {counts_of("target"), time_out};
@@ -41,7 +41,7 @@ constexpr std::array move_by_data = {counts_of("way, with its direction"), time_
 constexpr std::array find_zero_data = {
     ArgumentInfo{"marks", event::ZERO, event::ZERO | event::REF, {}, "what sets the counter to 0", event::ZERO, marks},
     number("far", map::min_24, map::max_24, counts, "where the search ends at the latest", map::max_24),
-    number("rate", 1, map::max_rate, rate_unit, "speed of the search", 1), time_out};
+    number("rate", 1, map::max_rate, {}, map::rate_law, 1), time_out};
 constexpr std::array slope_data = {
     number("top_speed", 1, 400'000, "counts/s", "speed between the ramps", 10'000),
     number("acceleration", 1, 100'000'000, "counts/s2", "of both ramps", 20'000),
