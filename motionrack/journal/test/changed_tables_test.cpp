@@ -84,21 +84,8 @@ TEST_F(ChangedTables, WithoutAnyRunAreThoseOfANewJournal) {
     EXPECT_EQ(write(*journal, "state", "the first"), 1);
 }
 
-/// Tables of version 1, with an entry.
-const char* const version_1 = R"(
-    CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER);
-    CREATE TABLE entry (number INTEGER PRIMARY KEY AUTOINCREMENT, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL,
-                        at INTEGER NOT NULL, kind TEXT NOT NULL, text TEXT NOT NULL, data TEXT NOT NULL);
-    CREATE INDEX entry_kind ON entry (kind, number);
-    CREATE TABLE kept (key TEXT PRIMARY KEY, value TEXT NOT NULL, run INTEGER NOT NULL,
-                       utc_ms INTEGER NOT NULL) WITHOUT ROWID;
-    INSERT INTO run VALUES (1, 10, 20);
-    INSERT INTO entry VALUES (1, 1, 11, 5, 'job', 'began', '{}');
-    PRAGMA application_id = 1296716366; PRAGMA user_version = 1;)";
-
 TEST_F(ChangedTables, OfVersion1AreUpgradedWithoutEntriesToo) {
-    change(version_1);
-    change("DELETE FROM entry; DELETE FROM sqlite_sequence");
+    change(tables_of_version_1);
     const auto journal = open();
     ASSERT_TRUE(journal);
     EXPECT_EQ(journal->before()->damage, "");
@@ -115,7 +102,8 @@ TEST_F(ChangedTables, OfVersion1ThatCannotBeUpgradedAreRefusedAndLeftAsTheyAre) 
     for (const auto& [sql, reported] : changes) {
         SCOPED_TRACE(sql);
         remove();
-        change(version_1);
+        change(tables_of_version_1);
+        change("INSERT INTO entry VALUES (1, 1, 11, 5, 'job', 'began', '{}')");
         change(sql);
         EXPECT_THAT(refusal(), AllOf(HasSubstr("cannot be used as a journal"), HasSubstr(reported)));
         EXPECT_THAT(refusal(), HasSubstr(reported)) << "nothing of the upgrade has remained";

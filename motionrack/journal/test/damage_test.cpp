@@ -232,17 +232,10 @@ TEST_F(DamagedJournal, IsNotChangedWithItsLogIfRejected) {
 }
 
 TEST_F(DamagedJournal, OfVersion1IsUpgradedAndInvalidOnce) {
+    change(tables_of_version_1);
     change(R"(
-        CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER);
-        CREATE TABLE entry (number INTEGER PRIMARY KEY AUTOINCREMENT, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL,
-                            at INTEGER NOT NULL, kind TEXT NOT NULL, text TEXT NOT NULL, data TEXT NOT NULL);
-        CREATE INDEX entry_kind ON entry (kind, number);
-        CREATE TABLE kept (key TEXT PRIMARY KEY, value TEXT NOT NULL, run INTEGER NOT NULL,
-                           utc_ms INTEGER NOT NULL) WITHOUT ROWID;
-        INSERT INTO run VALUES (1, 10, 20);
         INSERT INTO entry VALUES (7, 1, 11, 5, 'job', 'began', '{}'), (8, 1, 12, 6, 'job', 'ended', '{}');
-        INSERT INTO kept VALUES ('machine', 'X 3', 1, 13);
-        PRAGMA application_id = 1296716366; PRAGMA user_version = 1;)");
+        INSERT INTO kept VALUES ('machine', 'X 3', 1, 13);)");
     {
         auto journal = open();
         ASSERT_TRUE(journal->before());

@@ -14,6 +14,17 @@
 
 namespace motionrack::journal {
 
+/// Tables of version 1 with one run that ended, without entries and values.
+inline const char* const tables_of_version_1 = R"(
+    CREATE TABLE run (number INTEGER PRIMARY KEY, begun_ms INTEGER NOT NULL, ended_ms INTEGER);
+    CREATE TABLE entry (number INTEGER PRIMARY KEY AUTOINCREMENT, run INTEGER NOT NULL, utc_ms INTEGER NOT NULL,
+                        at INTEGER NOT NULL, kind TEXT NOT NULL, text TEXT NOT NULL, data TEXT NOT NULL);
+    CREATE INDEX entry_kind ON entry (kind, number);
+    CREATE TABLE kept (key TEXT PRIMARY KEY, value TEXT NOT NULL, run INTEGER NOT NULL,
+                       utc_ms INTEGER NOT NULL) WITHOUT ROWID;
+    INSERT INTO run VALUES (1, 10, 20);
+    PRAGMA application_id = 1296716366; PRAGMA user_version = 1;)";
+
 class JournalFile : public testing::Test {
   protected:
     JournalFile()
