@@ -9,6 +9,7 @@
 #include <memory>
 #include <motionrack/operate/machine.hpp>
 #include <motionrack/rack/template.hpp>
+#include <motionrack/rack/test/config_helpers.hpp>
 #include <optional>
 #include <string>
 #include <tests/invariants/watch.hpp>
@@ -19,12 +20,10 @@ namespace motionrack::operate {
 
 /// Two axes at the rack file's positions; `more`: further text of the file.
 inline rack::RackConfig two_axes(const std::string& more = "") {
-    const rack::RackReading reading = rack::read_rack_text(
+    return rack::good(
         "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = 10\n"
         "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n" +
         more);
-    EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
-    return *reading.config;
 }
 
 inline rack::RackConfig router() {

@@ -11,6 +11,7 @@
 #include <motionrack/rack/quantities.hpp>
 #include <motionrack/rack/rtc5_card.hpp>
 #include <motionrack/rack/stop_reactions.hpp>
+#include <motionrack/rack/test/config_helpers.hpp>
 #include <set>
 
 #include "operated.hpp"
@@ -163,17 +164,11 @@ constexpr Source sources[] = {
      [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.push=1280", "Y")); }, nothing},
 };
 
-rack::RackConfig rack_with_everything() {
-    const rack::RackReading reading = rack::read_rack_text(everything);
-    EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
-    return *reading.config;
-}
-
 using Case = std::tuple<State, Source>;
 
 class StopInAState : public testing::TestWithParam<Case> {
   protected:
-    StopInAState() : o_(rack_with_everything()) {}
+    StopInAState() : o_(rack::good(everything)) {}
     const State& state() const { return std::get<0>(GetParam()); }
     const Source& source() const { return std::get<1>(GetParam()); }
     double stop_s() const { return 0.45 + 0.6 * source().ahead_s; }
@@ -294,7 +289,7 @@ TEST(GeneralOutputs, GoLowAtAnEmergencyStopAndKeepTheirLevelsAtAllOtherStops) {
         SCOPED_TRACE(source.name);
         const double stop = 0.45 + 0.6 * source.ahead_s;
         const double expected = source.source == StopSource::emergency_stop ? 0 : 1;
-        Operated o(rack_with_everything());
+        Operated o(rack::good(everything));
         o.at(0.004, [](Machine& m) {
             EXPECT_TRUE(m.manual().set_position('X', 100));
             EXPECT_TRUE(m.manual().set_position('Y', 0));

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <motionrack/rack/config.hpp>
+#include <motionrack/rack/rack.hpp>
 #include <string>
 #include <vector>
 
@@ -27,5 +28,10 @@ inline RackConfig good(const std::string& text) {
     EXPECT_THAT(reading.errors, ::testing::IsEmpty()) << all_texts(reading.errors) << text;
     return reading.config.value_or(RackConfig{});
 }
+
+/// The rack of a valid file, started.
+struct StartedRack : Rack {
+    explicit StartedRack(const std::string& text) : Rack(good(text)) { start(); }
+};
 
 }  // namespace motionrack::rack

@@ -30,8 +30,7 @@ active_low = true
 )";
 
 TEST(Lamps, ShineWhileWhatDrivesThemSaysSo) {
-    Rack rack(good(two_lamps));
-    rack.start();
+    StartedRack rack(two_lamps);
     EXPECT_EQ(*get_quantity(rack, "ready.lit"), 1);
     WireAccess wires(rack);
     ASSERT_TRUE(wires.force("estop", 0));
@@ -40,8 +39,7 @@ TEST(Lamps, ShineWhileWhatDrivesThemSaysSo) {
 }
 
 TEST(Lamps, AreLowWithoutAWireAndCanBeDrivenByHand) {
-    Rack rack(good(two_lamps));
-    rack.start();
+    StartedRack rack(two_lamps);
     EXPECT_EQ(*get_quantity(rack, "spare.lit"), 1) << "its input is low, which it shines at";
     WireAccess wires(rack);
     ASSERT_TRUE(wires.force("spare.in", 1));
@@ -49,8 +47,7 @@ TEST(Lamps, AreLowWithoutAWireAndCanBeDrivenByHand) {
 }
 
 TEST(Lamps, StayDarkWhenTheyBurnOut) {
-    Rack rack(good(two_lamps));
-    rack.start();
+    StartedRack rack(two_lamps);
     ASSERT_TRUE(inject_fault(rack, "burnt_out", "ready"));
     EXPECT_EQ(*get_quantity(rack, "ready.lit"), 0);
     EXPECT_EQ(*get_quantity(rack, "spare.lit"), 1) << "the other one is whole";

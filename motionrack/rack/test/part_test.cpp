@@ -60,8 +60,7 @@ TEST(Parts, AreAxesThenCardsStagesConveyorsScanHeadsAndLamps) {
 }
 
 TEST(Parts, GiveTheValuesThatTheirListsOfQuantitiesName) {
-    Rack rack(good(one_of_each));
-    rack.start();
+    StartedRack rack(one_of_each);
     const Instant now = rack.kernel().now();
     for (const auto& part : rack.parts())
         for (const Quantity& one : part->quantities()) {
@@ -99,8 +98,7 @@ TEST(Parts, CannotHaveTheFaultsOfWhatTheyLack) {
 }
 
 TEST(Parts, CannotHaveFaultsThatTheyDoNotName) {
-    Rack rack(good(one_of_each));
-    rack.start();
+    StartedRack rack(one_of_each);
     for (const std::string_view name : {"X", "mask", "line", "head", "red"}) {
         Part& part = part_named(rack, name);
         EXPECT_FALSE(part.can_have("motor.melt")) << name;
