@@ -1,4 +1,4 @@
-// Counting operators new and delete.
+// Replacements of operators new and delete: they count the calls of operator new.
 #include <atomic>
 #include <cstdlib>
 #include <motionrack/sim/test/allocation_count.hpp>
@@ -26,7 +26,8 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
     return counted(size);
 }
-// The library's version would suffice, but AddressSanitizer has its own, whose memory must not be freed here.
+// The standard library's nothrow version would call operator new above. AddressSanitizer replaces it by its own, whose
+// memory std::free must not release.
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
     count.fetch_add(1, std::memory_order_relaxed);
     return std::malloc(size == 0 ? 1 : size);

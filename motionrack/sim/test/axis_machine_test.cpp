@@ -14,7 +14,8 @@ using sim::Kernel;
 using sim::PulseLaw;
 using sim::WireId;
 
-/// Pulses every 100 us: 10 kHz requires a start rate that permits it.
+/// Returns an axis whose motor starts at up to 50 kHz, so that the tests' 10 kHz (a pulse each 100 us) cause no step
+/// loss.
 AxisMechanicsSettings plain() {
     AxisMechanicsSettings s;
     s.motor.start_stop_hz = 50'000;
@@ -68,7 +69,7 @@ TEST(AxisMechanics, TurnsPulsesIntoMillimetresExactly) {
     EXPECT_EQ(w.machine.velocity(), 10'000 * 5.0 / 3200);
     EXPECT_EQ(w.machine.peak_velocity(), w.machine.velocity());
     EXPECT_TRUE(w.kernel.conditions().empty());
-    EXPECT_LE(w.kernel.events(), 2u);  // single pulses cost no time
+    EXPECT_LE(w.kernel.events(), 2u);  // single pulses cause no events
 }
 
 TEST(AxisMechanics, TurnsPulsesIntoDegreesByARatioThatIsNoDecimalFraction) {
@@ -211,7 +212,7 @@ TEST(AxisMechanics, AMotorStartedTooFastStallsAndLocksAMultipleOfFourStepsLater)
     EXPECT_EQ(w.machine.rotor().rate(w.kernel.now()), 0);
     w.run(milliseconds(110));
     EXPECT_TRUE(w.machine.in_step());
-    EXPECT_EQ(w.machine.lost_steps(), 960);  // 984 pulses: 15 cycles of 64 is nearest
+    EXPECT_EQ(w.machine.lost_steps(), 960);  // 984 pulses: 15 * 64 is the nearest multiple of 64
     EXPECT_EQ(conditions(w.kernel), (std::vector<std::pair<AxisCondition, std::int64_t>>{
                                         {AxisCondition::fell_out_of_step, 0}, {AxisCondition::lost_steps, 960}}));
     EXPECT_EQ(w.kernel.conditions()[1].at, milliseconds(100));
@@ -220,7 +221,7 @@ TEST(AxisMechanics, AMotorStartedTooFastStallsAndLocksAMultipleOfFourStepsLater)
 TEST(AxisMechanics, AMotorStoppedAbruptlyOvershootsByWholeElectricalCycles) {
     AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 2000;
-    // 0 -> 2000 -> 4000 -> 0 Hz: the last is a jump of twice the start/stop rate.
+    // 0 -> 2000 -> 4000 -> 0 Hz: the last change is twice the start/stop rate.
     MachineWorld w(s, {{Instant{0}, microseconds(500), +1},
                        {milliseconds(10), microseconds(250), +1},
                        {milliseconds(20), microseconds(250), 0}});
@@ -234,7 +235,7 @@ TEST(AxisMechanics, AMotorStoppedAbruptlyOvershootsByWholeElectricalCycles) {
 TEST(AxisMechanics, AMotorFollowsPulsesThatStopLessThanAFullStepOn) {
     AxisMechanicsSettings s = plain();
     s.motor.start_stop_hz = 2000;
-    // Three times 15 of the 16 microsteps of a full step, at 3 kHz, and a fourth time all of them.
+    // Pulses at 3 kHz: three times 15 of the 16 microsteps of a full step, then more than a full step.
     const Duration quick = microseconds(333);
     std::vector<PulseLaw> laws;
     for (const int ms : {0, 100, 200}) {
@@ -376,7 +377,7 @@ TEST(AxisMechanics, ASnapshotDuringAMoveContinuesAsTheUninterruptedRun) {
                        {milliseconds(45), microseconds(50), -1},
                        {milliseconds(70), microseconds(100), +1}});
     w.kernel.start();
-    const Instant middle = milliseconds(32) + microseconds(300);  // in the bounce
+    const Instant middle = milliseconds(32) + microseconds(300);  // while the switch bounces
     w.run(middle);
     const sim::Snapshot snapshot = w.kernel.snapshot();
     w.run(milliseconds(200));

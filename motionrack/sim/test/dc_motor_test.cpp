@@ -65,7 +65,7 @@ RC_GTEST_PROP(DcMotor, MovesAsTheDifferentialEquationRequires, ()) {
         const double time = 1e-3 * *rc::gen::inRange(1, 60);
         rig.run(time);
         stepped.run(time);
-        // One microsecond more or less is 2 counts/s at the maximum acceleration, and the errors of the steps add up.
+        // An error of one step (1 us) is 2 counts/s at the maximum acceleration; the errors of several steps add up.
         RC_ASSERT(std::fabs(rig.rate() - stepped.velocity) < 60);
         RC_ASSERT(std::fabs(rig.position() - stepped.place) < 3);
     }

@@ -11,7 +11,7 @@
 
 namespace motionrack::sim {
 
-/// From `at` on a pulse every `period`, the first at at + period; direction +1, -1, or 0: standstill.
+/// Pulses from `at` on, one every `period`, the first at `at` + `period`. `direction`: +1, -1, or 0 for standstill.
 struct PulseLaw {
     Instant at{};
     Duration period{1};
@@ -60,7 +60,7 @@ class FakePulses final : public DeferringDevice, public PositionFunction {
     void sync(Instant now) override { make_edges(now); }
     std::span<std::byte> state() override { return bytes_of(state_); }
 
-    /// A new law from outside, between runs.
+    /// Replaces the current law; call it between runs of the kernel.
     void drive(Duration period, std::int64_t direction) {
         change_law({kernel_.now(), period, direction}, kernel_.now());
         reschedule();

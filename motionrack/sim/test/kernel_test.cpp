@@ -8,7 +8,7 @@
 namespace motionrack::sim {
 namespace {
 
-/// A device with functions as its parts.
+/// A device whose callbacks are functions that a test sets.
 class Puppet final : public DeferringDevice {
   public:
     void on_scheduled(Instant now) override {
@@ -71,7 +71,7 @@ TEST(Kernel, ALaterRequestReplacesTheEarlierOneAndThePastBecomesNow) {
     std::vector<Instant> acts;
     p.on_act = [&](Instant now) {
         acts.push_back(now);
-        if (acts.size() == 1) kernel.schedule(id, Instant{5});  // already past
+        if (acts.size() == 1) kernel.schedule(id, Instant{5});  // already past: runs at once
     };
     kernel.start();
     kernel.schedule(id, Instant{10});
@@ -204,7 +204,7 @@ TEST(Kernel, ALazyWireThatWasForcedReturnsToTheLevelOfItsOwner) {
     w.kernel.force(w.wire, 0);
     w.kernel.settle();
     EXPECT_EQ(w.kernel.level(w.wire), 0);
-    w.kernel.subscribe(w.wire, w.listener_id, true);  // while it is forced
+    w.kernel.subscribe(w.wire, w.listener_id, true);  // subscribes while the wire is forced
     EXPECT_EQ(w.kernel.level(w.wire), 0);
     w.kernel.release(w.wire);
     w.kernel.settle();
@@ -276,7 +276,7 @@ TEST(Kernel, KeepsTheLatestConditionsAndReportsTheNumberOfDroppedOnes) {
 
 // ---- Snapshots
 
-/// Two devices that drive each other's wires and report, by a pseudo-random rule.
+/// Two devices that drive each other's wires and report conditions, by a pseudo-random rule.
 struct Clockwork {
     Clockwork() {
         for (std::size_t i = 0; i < 2; ++i) {
@@ -381,7 +381,7 @@ TEST(Kernel, ARunAllocatesNothing) {
     EXPECT_EQ(allocations(), before);
     EXPECT_GT(w.kernel.events(), 1000u);
     EXPECT_FALSE(w.kernel.conditions().empty());
-    EXPECT_GT(allocations(), before);  // the counter counts
+    EXPECT_GT(allocations(), before);  // allocations() does count
 }
 
 }  // namespace

@@ -65,7 +65,8 @@ struct World {
 using Disc = World<LineEncoder, LineEncoderSettings>;
 using Winding = World<Resolver, ResolverSettings>;
 
-/// A disc of 400 counts on a rotor of 4000 microsteps, a step each 1 us: 100,000 counts/s.
+/// Returns a disc of 400 counts per revolution on a rotor of 4000 microsteps. One microstep each 1 us gives 100,000
+/// counts/s.
 LineEncoderSettings small_disc() {
     return {.counts_per_turn = 400, .position_per_turn = 4000};
 }
@@ -148,7 +149,7 @@ TEST(LineEncoder, JitterDelaysEdgesButLosesNone) {
 
 TEST(LineEncoder, AboveItsMaximumRateLosesWholeLinesWithoutAReport) {
     Disc w(small_disc(), to_and_fro);
-    EXPECT_TRUE(w.fault("overspeed", 30'000));  // it moves at 100,000
+    EXPECT_TRUE(w.fault("overspeed", 30'000));  // counts/s; the disc moves at 100,000 counts/s
     w.run(milliseconds(30));
     EXPECT_GT(w.part.lost(), 100);
     EXPECT_EQ(w.counter.decoder.illegal(), 0u);
@@ -205,7 +206,7 @@ TEST(LineEncoder, AnInvertedIndexIsActiveLow) {
     EXPECT_TRUE(w.fault("inverted_z", 1));
     w.run(milliseconds(9));
     EXPECT_EQ(w.kernel.level(w.part.z()), 1);
-    EXPECT_EQ(w.counter.index_at, (std::vector<std::int64_t>{1, 401, 801}));  // its end rises
+    EXPECT_EQ(w.counter.index_at, (std::vector<std::int64_t>{1, 401, 801}));  // rising edges end the pulses
 }
 
 TEST(LineEncoder, MissingAndDoubleIndexes) {
@@ -345,7 +346,7 @@ TEST(Resolver, UnequalWindingsCauseErrorsTwicePerRevolutionAndOffsetsOnce) {
         EXPECT_TRUE(w.fault(c.fault, c.value));
         for (int i = 1; i <= 10'240; ++i) {
             w.run(microseconds(1));
-            if (i < 50) continue;  // it moves to the new angle, a count in 1 us
+            if (i < 50) continue;  // after the fault the output moves to the new angle, one count in 1 us
             const SinCos at = sin_cos(2 * pi * i / 10'240);
             const std::string name = c.fault;
             double angle = atan2(at.sin * (name == "gain" ? 1 + c.value : 1) + (name == "offset_sin" ? c.value : 0),

@@ -101,7 +101,7 @@ RC_GTEST_PROP(LinearScale, CountsAsTheFormulaRequires, ()) {
         const long double counts = nm * 1'000 * s.interpolation / s.pitch_pm;
         const auto expected = static_cast<std::int64_t>(std::floor(counts));
         RC_ASSERT(rig.scale.lost() == 0);
-        // The long double may be on the wrong side next to a whole number.
+        // Next to a whole number, the rounding error of the long double may select the wrong count.
         if (std::fabs(counts - std::round(counts)) > 1e-3L)
             RC_ASSERT(rig.count() == (s.reversed ? -expected : expected));
         RC_ASSERT(std::fabs(rig.scale.position_nm(rig.kernel.now()) - static_cast<double>(nm)) <=
@@ -110,7 +110,7 @@ RC_GTEST_PROP(LinearScale, CountsAsTheFormulaRequires, ()) {
 }
 
 TEST(LinearScale, CountsAtTwentyMegahertzOverTwoMetresAtNoCost) {
-    LinearScaleSettings s;  // 4.88 nm a count
+    LinearScaleSettings s;  // 4.88 nm per count
     LinearStageSettings stage;
     stage.start_nm = -1e9;
     stage.saturation_velocity = 20e6 * 20e-6 / 4'096 * 0.999'999;
@@ -125,8 +125,8 @@ TEST(LinearScale, CountsAtTwentyMegahertzOverTwoMetresAtNoCost) {
     EXPECT_NEAR(static_cast<double>(rig.count() - from), 200e6 * 0.999'999, 2);
     EXPECT_LT(rig.kernel.events() - events, 10u);
     EXPECT_TRUE(rig.scale.counts_valid());
-    // 2 m are more counts of a finer scale than 32 bits hold; a card that stores the low 32 bits finds the others from
-    // its last reading.
+    // On a finer scale, the counts of 2 m exceed 32 bits. A card that stores the low 32 bits reconstructs the others
+    // from its last reading.
     LinearScaleSettings fine;
     fine.pitch_pm = 512'000;
     fine.max_count_rate = 1e9;
@@ -220,7 +220,7 @@ TEST(LinearScale, LosesCountsThatAreTooFastAndReportsIt) {
     s.max_count_rate = 1e6;  // 4.88 mm/s
     ScaleRig rig(s);
     rig.kernel.start();
-    rig.volts(1);  // 5 m/s2: too fast after 0.9766 ms
+    rig.volts(1);  // 5 m/s2: above 4.88 mm/s after 0.9766 ms
     rig.run(2e-3);
     EXPECT_TRUE(rig.scale.too_fast());
     EXPECT_FALSE(rig.scale.counts_valid());

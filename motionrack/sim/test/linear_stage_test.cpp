@@ -117,7 +117,7 @@ TEST(LinearStage, GainsTheWorkOfTheForceMinusFriction) {
     rig.volts(0);
     rig.run(3);
     EXPECT_EQ(rig.velocity(), 0);
-    // All of it went into friction.
+    // Friction has dissipated all of the work.
     EXPECT_NEAR(rig.nm() * 1e-9 * 0.5, 10 * way, 1e-8);
     const std::uint64_t events = rig.kernel.events();
     rig.run(1'000);
@@ -185,7 +185,7 @@ RC_GTEST_PROP(LinearStage, NotifiesAWatchAtTheExactTick, ()) {
         listener.at.clear();
         for (int k = 0; k < 100'000 && listener.at.empty(); ++k) rig.run(1e-3);
         RC_ASSERT(listener.at.size() == 1u);
-        // The rig has run on; a second one is stopped one tick before and at the instant.
+        // This rig has already passed the reported instant; a second rig stops one tick before it and at it.
         Rig again(s);
         again.kernel.start();
         again.volts(rig.stage.volts());

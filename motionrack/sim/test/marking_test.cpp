@@ -29,7 +29,8 @@ TEST(GalvoPair, ASteadyMovementIsLateByTheLag) {
     std::vector<std::int32_t> ramp(3000);
     for (std::size_t i = 0; i < ramp.size(); ++i) ramp[i] = static_cast<std::int32_t>(i) * 40;
     const auto x = driven(galvo, ramp);
-    // At the end of tick i ideal mirrors are at 40 i; a bit held for a tick is late by half a tick on average.
+    // At the end of tick i, ideal mirrors are at 40 i bits. Holding a value for a tick of 10 us delays it by 5 us on
+    // average.
     EXPECT_NEAR((40.0 * 2999 - x.back()) / 40 * 10, galvo.lag_us() - 5, 0.2);
 }
 
@@ -124,7 +125,7 @@ TEST(SerialPositionSource, WordsHaveResolutionPeriodAndDelay) {
     EXPECT_FALSE(SerialPositionSource::make(*Conveyor::make({.rotary = true}), {.two_axes = true}));
 }
 
-/// Part of each tick with laser light.
+/// Expects the share of each tick, 0 .. 1, in which the laser emits light.
 void expect_lights(LaserGate& gate, const std::vector<double>& expected) {
     for (std::size_t t = 0; t < expected.size(); ++t) {
         const auto tick = static_cast<std::int64_t>(t);

@@ -53,7 +53,8 @@ RC_GTEST_PROP(QuadratureDecoder, CountsFewerEdgesAsTheClosedFormStates, (std::ve
 }
 
 RC_GTEST_PROP(BatchDecoder, DecodesAnyLinesAsTheTableDoes, ()) {
-    // From long runs in one direction to pure noise, in pieces of any size.
+    // Decodes lines from steady motion in one direction to lines with random values in half of the samples, in
+    // batches of up to 5999 samples.
     const int noise = *rc::gen::inRange(0, 5);
     const auto seed = *rc::gen::arbitrary<std::uint64_t>();
     std::uint64_t x = seed;

@@ -10,7 +10,8 @@
 namespace motionrack::sim {
 namespace {
 
-/// Register 0: the pulses' period in microseconds (0: stop); register 1: direction; register 2: number of its reads.
+/// A card with three registers. 0: period of the pulses in microseconds (0: stop); 1: direction; 2: number of reads of
+/// this register.
 class PulseCard final : public RegisterDevice, public Device {
   public:
     PulseCard(Kernel& kernel, FakePulses& pulses) : kernel_(kernel), pulses_(pulses) {
@@ -25,7 +26,7 @@ class PulseCard final : public RegisterDevice, public Device {
             return;
         }
         pulses_.drive(microseconds(value == 0 ? 1 : value), value == 0 ? 0 : state_.direction ? -1 : 1);
-        kernel_.set_wire(interrupt, value == 0);  // low while it runs
+        kernel_.set_wire(interrupt, value == 0);  // active (low) while pulses run
         kernel_.break_run();
     }
     void on_scheduled(Instant) override {}

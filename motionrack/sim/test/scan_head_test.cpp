@@ -7,7 +7,7 @@
 namespace motionrack::parts {
 namespace {
 
-/// 1000 bits/mm over a stationary part.
+/// Returns a scan head with 1000 bits/mm above a stationary part.
 StationSettings plain_head() {
     StationSettings out;
     out.bits_per_mm = 1000;
@@ -24,7 +24,7 @@ struct Bench {
         kernel.start();
         head.begin();
     }
-    /// At that instant, which has not ended.
+    /// Runs up to an instant, in half microseconds, and forces a wire at it.
     void at(std::int64_t half_us, sim::WireId wire, int level) {
         kernel.run_until(nanoseconds(500 * half_us));
         kernel.force(wire, level);

@@ -47,7 +47,7 @@ TEST(Conveyor, ContinuesFromItsPositionWhenItsVelocityChanges) {
 TEST(Conveyor, StopsWithItsDeceleration) {
     for (const double way : {1.0, -1.0}) {
         Conveyor track = *Conveyor::make({.profile = {{0, 100 * way}}, .deceleration = 200});
-        track.stop(1);  // for 0.5 s, over 25 mm
+        track.stop(1);  // decelerates for 0.5 s, over 25 mm
         EXPECT_DOUBLE_EQ(track.velocity(1), 100 * way);
         EXPECT_DOUBLE_EQ(track.velocity(1.25), 50 * way);
         EXPECT_DOUBLE_EQ(track.travel(1.25), 118.75 * way);
@@ -160,7 +160,7 @@ TEST(SerialWordSource, AWordIsCompleteTheDelayAfterItsReading) {
     kernel.run_until(microseconds(170));
     EXPECT_EQ(kernel.level(word), 50) << "the reading at 50 us";
     EXPECT_EQ(kernel.level(frame), 1) << "the first word was 0 again";
-    // The same as SerialPositionSource for ticks of 10 us.
+    // The wire carries the words that SerialPositionSource returns for ticks of 10 us.
     std::vector<std::uint32_t> words(100);
     sender.words(0, words);
     for (std::size_t tick = 18; tick < words.size(); ++tick) {
