@@ -81,7 +81,7 @@ inline std::string that_lead_on(const std::string& lines) {
         std::istringstream numbers(line.substr(open + 1));
         for (std::string one; std::getline(numbers, one, ',');) n.push_back(one.substr(one.find_first_not_of(' ')));
         const std::string to =
-            line.starts_with("ARC") ? n.at(1) + ' ' + n.at(0) : n.at(0) + ' ' + n.at(2);  // of G18: X Z
+            line.starts_with("ARC") ? n.at(1) + ' ' + n.at(0) : n.at(0) + ' ' + n.at(2);  // X Z; G18 arcs have Z first
         if (to != last) out += line + '\n';
         last = to;
     }

@@ -55,7 +55,8 @@ std::string place(CutterSpot p) {
     return text;
 }
 
-/// Returns the corners of a polygon around the origin, counter-clockwise, rounded as the program has them.
+/// Returns the corners of a star-shaped polygon around the origin, counter-clockwise, rounded to the decimals of the
+/// program.
 std::vector<CutterSpot> star() {
     const int corners = *rc::gen::inRange(4, 14);
     std::vector<CutterSpot> out;
@@ -104,7 +105,7 @@ RC_GTEST_PROP(GcodeCutter, EdgeTouchesTheContourEverywhereAndCutsItNowhere, ()) 
             for (std::size_t i = 0; i < count; ++i)
                 near = std::min(near, distance_to_segment(p, corners[i], corners[(i + 1) % count]));
             RC_ASSERT(near < radius + cutter_tolerance_mm + 1e-4);
-            // Other edges than the neighbours may be too close: the programmer must avoid this.
+            // Edges that are not neighbours may come too close; the programmer must avoid this.
             double neighbours = 1e9;
             for (std::size_t i = 0; i < count; ++i) {
                 const double apart = distance_to_segment(p, corners[i], corners[(i + 1) % count]);
@@ -203,7 +204,7 @@ TEST(GcodeCutter, InsertsNoArcsAtNearlyTangentCorners) {
         arcs += moves[i].kind == MoveKind::arc;
         EXPECT_NEAR(std::hypot(moves[i].end[0], moves[i].end[1]), 103, 0.003);
     }
-    EXPECT_EQ(arcs, 1);  // where the first chord leaves the lead-in
+    EXPECT_EQ(arcs, 1);  // at the corner between the lead-in and the first chord
 }
 
 TEST(GcodeCutter, UsesTheDiameterOfTheTool) {
@@ -225,7 +226,7 @@ TEST(GcodeCutter, ContourMayLeaveTheTravelWhereTheCutterDoesNot) {
     EXPECT_TRUE(
         read(std::string(cutter_preamble) + "G41.1 D20\nG1 X400 Y-505\nG1 X450\nG40 G1 X0 Y0\n").problems.empty());
     const auto program = read(std::string(cutter_preamble) + "G42.1 D20\nG1 X400 Y-495\nG1 X450\nG40 G1 X0 Y0\n");
-    ASSERT_EQ(program.problems.size(), 1u);  // the lead-in; then the next move is the lead-in
+    ASSERT_EQ(program.problems.size(), 1u);  // the lead-in is refused; the next move becomes the lead-in
     EXPECT_EQ(program.problems[0].status, GrblStatus::travel_exceeded);
     EXPECT_THAT(program.problems[0].message, HasSubstr("at the offset contour of the cutter's centre"));
 }

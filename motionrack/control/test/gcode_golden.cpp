@@ -48,7 +48,7 @@ TEST(GcodeCorpus, HasMoreThanFiftyProgramsWithEveryWord) {
     }
     for (int tenths = 0; tenths < 1000; ++tenths)
         EXPECT_TRUE(group_of_g(tenths) >= g_group_count || tenths == 50 || tenths == 51 || g.contains(tenths))
-            << name_of_g(tenths);  // curves are arcs here
+            << name_of_g(tenths);  // G5 and G5.1: arcs here, not comparable
     for (int code = 0; code < 100; ++code)
         EXPECT_TRUE(group_of_m(code) == m_unknown || code == 61 || m.contains(code)) << "M" << code;
     for (const char* word : {"sub", "endsub", "return", "call", "if", "elseif", "else", "endif", "while", "endwhile",
@@ -112,7 +112,7 @@ std::string mode_lines(const std::string& canon) {
 }  // namespace
 
 TEST(GcodeCanon, PrintsRestoredModesAsRs274Does) {
-    // Up to there rs274 omits a G54 that changes nothing.
+    // Before these calls, rs274 omits a G54 that changes nothing.
     for (const auto& [name, from] :
          {std::pair("overrides", "USE_LENGTH_UNITS"), std::pair("modes_kept", "SET_FEED_RATE(5.0000)")}) {
         const std::string ours = mode_lines(printed(file_text(folder() + name + ".ngc"))),

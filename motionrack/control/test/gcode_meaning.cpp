@@ -157,8 +157,8 @@ TEST(GcodeReader, M2ResetsTheModalStateAfterTheMoves) {
 TEST(GcodeReader, ArcsMayReachTheTravelLimitsButNotExceedThem) {
     EXPECT_TRUE(read("G0 X490 Y-10\nG3 X490 Y10 J10 F9").problems.empty());  // touches X500
     EXPECT_FALSE(read("G0 X490.001 Y-10\nG3 Y10 J10 F9").problems.empty());  // X500.001
-    EXPECT_TRUE(read("G0 X490.001 Y-10\nG2 Y10 J10 F9").problems.empty());   // the other way round
-    EXPECT_TRUE(read("G0 X499 Y0\nG3 X489 Y10 I-10 F9").problems.empty());   // starts at its extreme
+    EXPECT_TRUE(read("G0 X490.001 Y-10\nG2 Y10 J10 F9").problems.empty());   // clockwise: does not reach X500
+    EXPECT_TRUE(read("G0 X499 Y0\nG3 X489 Y10 I-10 F9").problems.empty());   // starts at its largest X
     EXPECT_FALSE(read("G0 X499 Y0\nG3 X489 Y10 Z1 I-10 J-1.1 F9").problems.empty());
 }
 

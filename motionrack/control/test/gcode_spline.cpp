@@ -174,7 +174,7 @@ TEST(GcodeSpline, CuspsLoopsStraightLinesAndZeroLengthHandlesAreAccepted) {
 }
 
 TEST(GcodeSpline, CurveStaysWithinTheTravel) {
-    // It starts along the limit, so that a joint could be outside.
+    // The curve starts tangentially to the travel limit, so a junction of its arcs could lie outside.
     const auto program = read(std::string(spline_preamble) + "G0 X-500 Y0\nG5 X-400 Y300 I0 J100 P-90 Q-30\n");
     ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
     for (const Move& move : program.moves()) EXPECT_GE(move.end[0], -500 - limit_slack);

@@ -12,8 +12,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Returns the ends of a program's moves. Every probing move finds its edge at `edge` of Z, if that is on its way; the
-/// machine stops 0.1 behind it.
+/// Returns the ends of a program's moves. A probing move that ends below Z = `edge` makes contact there; the machine
+/// stops 0.1 mm below.
 std::vector<Point> probing_at(std::string_view text, double edge) {
     ProgramReader reader(text, testing::machine());
     std::vector<Point> ends;
@@ -45,12 +45,12 @@ TEST(GcodeTogether, AProbeDecidesWhichLinesComeNext) {
     constexpr std::string_view program =
         "G21 G90 G94 F100\nG10 L2 P1 Z5\no1 sub\n  G91 G38.3 Z-2\n  G90\no1 endsub [#5063]\n#1 = 0\n"
         "o100 do\n  o1 call\n  #1 = [#1 + 1]\no100 while [#5070 EQ 0]\nG0 X#1 Y#5063 Z[#<_value> + 1]\nM2\n";
-    const auto ends = probing_at(program, -3.25);  // Z -2 and 0 as machine positions, then -2, then the edge
+    const auto ends = probing_at(program, -3.25);  // probes to machine Z -2, then to -4, with contact
     ASSERT_EQ(ends.size(), 3u);
     EXPECT_EQ(ends[1][2], -4);
     EXPECT_EQ(ends[2][0], 2);
     EXPECT_EQ(ends[2][1], -8.25);
-    EXPECT_EQ(ends[2][2], -2.25);  // program -7.25
+    EXPECT_EQ(ends[2][2], -2.25);  // program Z -7.25
 }
 
 TEST(GcodeTogether, AMissReportsTheEndInTheUnitsAndRotationOfTheProgram) {

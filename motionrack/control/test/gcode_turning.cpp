@@ -111,7 +111,8 @@ struct Moved {
     }
 };
 
-/// Executes a cycle on a contour in its orientation, in one of the eight orientations in X and Z.
+/// Executes a cycle in one of the eight orientations in X and Z. `plan`, `contour` and `out` are in the orientation of
+/// the cycle; `view` converts them.
 std::string cut(const CuttingOrientation& view, LatheCycle plan, std::vector<ContourSegment> contour,
                 std::vector<Moved>& out) {
     for (ContourSegment& piece : contour) {
@@ -212,7 +213,7 @@ RC_GTEST_PROP(GcodeLathe, LeavesNothingOnTheContourButD, ()) {
         }
     RC_ASSERT(std::fabs(moves.back().move.to.first - contour.back().to.first) < near);
     RC_ASSERT(std::fabs(moves.back().move.to.second - top) < near);
-    // All except the pockets, and then the pockets, leave the same.
+    // G71.1 (without pockets) and then G71.2 (pockets only) cut the same contour as G71.
     std::vector<Moved> rest;
     plan.code = 711;
     RC_ASSERT(cut(view, plan, contour, moves) == "");
@@ -268,7 +269,7 @@ RC_GTEST_PROP(GcodeLathe, LeadsThroughNothingThatIsToBeLeftFromWhereverItStarts,
         for (int k = 0; k <= 12; ++k) RC_ASSERT(is_above(contour, one.at(k / 12.0)));
 }
 
-/// Executes G70 in two passes along a contour in its orientation.
+/// Executes G70 in two passes along a contour; expects that no move is below the contour.
 void expect_finished_above(const std::vector<ContourSegment>& contour, PlanePoint start, double distance,
                            double end_distance) {
     LatheCycle plan;
@@ -289,8 +290,8 @@ TEST(GcodeLathe, FinishingRetractsOverABulgeThatEndsAtItsStartDiameter) {
     expect_finished_above({{{0, 1}, {19.2, 1}, -1, {9.6, 1}, 0, false, 1}}, {-2, top}, 0, 0);
 }
 
-// In the offset contour the groove ends slightly after its half circle, because its bulge begins within the tolerance
-// of that.
+// In the offset contour, the arc of the groove is slightly longer than a half circle, because the bulge begins within
+// the tolerance of its end.
 TEST(GcodeLathe, FinishingRetractsOverABulgeBehindAGrooveThatItNearlyTouches) {
     expect_finished_above(
         {{{0, 0}, {12.9, 0}, 1, {6.45, 0}, 0, false, 1}, {{12.9, 0}, {27.6, 0}, -1, {20.25, -0.147}, 0, false, 2}},

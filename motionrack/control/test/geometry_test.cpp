@@ -197,7 +197,7 @@ RC_GTEST_PROP(GeometryLaws, TheDistanceIsTheLeastOverThePath, ()) {
     const bool helix = *rc::gen::arbitrary<bool>();
     RandomArc made = random_arc(seed, helix);
     if (!helix) {
-        // a flat arc
+        // removes the motion along the third axis
         const int third = 3 - made.move.first - made.move.second;
         made.move.end[third] = made.start[third];
         if (seed % 3 == 0) made.move.kind = MoveKind::feed;

@@ -167,7 +167,7 @@ void keeps_the_limits(const MachineLimits& limits, const std::vector<PlannedMove
     }
 }
 
-/// Returns the entry velocities of a whole program: every move knows all following ones.
+/// Returns the entry velocities of a whole program by a backward and a forward pass over all moves.
 std::vector<double> entries_by_full_passes(const MachineLimits& machine, const std::vector<PlannedMove>& moves) {
     const PathLimits limits(machine);
     const std::size_t count = moves.size();

@@ -153,7 +153,7 @@ TEST(LookAheadPlanner, ContinuousCornersObeyTheVelocityStepOfTheAxes) {
     Move first = path_line_to(20, 0, 0, 50, PathControl::continuous);
     first.tolerance_mm = 100;
     const auto out = plan_path(path_machine(), {first, path_line_to(20, 20)});
-    EXPECT_DOUBLE_EQ(out[0].exit_velocity, 2);  // X has the whole velocity as a step
+    EXPECT_DOUBLE_EQ(out[0].exit_velocity, 2);  // X stops, so the whole velocity is its step
 }
 
 TEST(LookAheadPlanner, ContinuousCornersObeyTheTolerance) {
@@ -191,7 +191,7 @@ TEST(LookAheadPlanner, ALineIntoATangentArcKeepsTheCentripetalLimitOfTheArc) {
     arc.centre_first = 20;
     arc.centre_second = 10;
     const auto out = plan_path(path_machine(), {path_line_to(20, 0), arc});
-    // lower acceleration of X and Y: 600
+    // the lower max_accel of X and Y is 600
     EXPECT_NEAR(out[0].exit_velocity, 50, 1e-9);
     EXPECT_NEAR(out[1].accel, 0.4 * 600, 1e-9);
     arc.end = {20.5, 0.5, 0, 0, 0, 0};
@@ -206,7 +206,7 @@ TEST(LookAheadPlanner, ASteepHelixHasLessCentripetalAccelerationThanItsCircle) {
     helix.turns = 1;
     MachineLimits limits = path_machine();
     limits[2] = limits[0];
-    // equally high and round: half of v^2 / r points to the axis; the distance along the arc is sqrt 1/2 of the path
+    // as high as its arc is long: the centripetal acceleration is v^2 / 2r; the arc is sqrt 1/2 of the path length
     const Geometry path = geometry_of(helix, {0.1, 0, 0, 0, 0, 0});
     const AlongPathLimits along = PathLimits(limits).along(path, helix);
     EXPECT_NEAR(along.velocity, std::sqrt(0.8 * 600 * 0.1 / 0.5), 1e-9);

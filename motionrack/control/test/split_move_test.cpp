@@ -1,4 +1,4 @@
-// The parts of a move together are the move; a remaining move ends where the whole move ends.
+// Parts of a move: together they equal the move, and a remaining move ends where the whole move ends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,7 +82,7 @@ TEST(RemainingMove, OnASteepHelixIsFoundByItsHeight) {
         for (const double part : {0.0, 0.001, 0.078, 0.5, 0.99, 1.0}) {
             SCOPED_TRACE(testing::Message() << turn << " turns, at " << part);
             Point position = position_at(path, part * path.length);
-            for (const double off : {-0.0004, 0.0004}) {  // a pulse
+            for (const double off : {-0.0004, 0.0004}) {  // about a pulse
                 position[1] += off;
                 const NearestPoint nearest = nearest_point(path, position, pulses);
                 EXPECT_NEAR(nearest.length, part * path.length, 0.001);
@@ -98,7 +98,7 @@ TEST(RemainingMove, OnASteepHelixIsFoundByItsHeight) {
 TEST(RemainingMove, OnAFlatHelixIsFoundByItsAngle) {
     const PulsesPerUnit pulses = {640, 640, 640, 0, 0, 0};
     for (const double turn : {0.3, 0.99, 1.0}) {
-        const Move whole = helix(turn, 0.002);  // a pulse
+        const Move whole = helix(turn, 0.002);  // rises by about a pulse
         const Geometry path = geometry_of(whole, at_ten);
         for (const double part : {0.1, 0.4, 0.6, 0.9}) {
             SCOPED_TRACE(testing::Message() << turn << " turns, at " << part);

@@ -1,8 +1,8 @@
 // The slow reference solver: evaluates every motion of the correct form that reaches the target, and selects the
-// fastest. It uses neither feet nor scales: it integrates phases one after the other.
+// fastest. Unlike the solver under test it does not scale the units; it integrates phases one after the other.
 //
 //   peak y <= accel: the acceleration rises to y;  y > accel: it is held at its limit for (y - accel)/jerk s
-//   then it falls to the valley -- two of them may give the end velocity -- and rises to the final acceleration
+//   then it falls to a valley, on the low or the high branch, and rises to the final acceleration
 
 #include <algorithm>
 #include <cmath>
@@ -115,12 +115,12 @@ class Search {
             const double error_there = error(middle, low, one, seconds);
             ((error_there < 0) == (first < 0) ? from : to) = middle;
         }
-        // no root, but a gap of the branch between two sides
+        // rejects a change of sign at a gap of the branch: it is not a root
         const double left = std::fabs(error(from, low, one, seconds));
         return left <= 1e-9 * (std::fabs(first) + std::fabs(second)) ? seconds : no_time;
     }
 
-    /// Returns the peak with which the maximum velocity is just reached.
+    /// Returns the peak acceleration with which the velocity just reaches its maximum.
     double max_peak() const {
         const auto peak_velocity = [&](double peak) {
             const State s = up_to(peak);
@@ -167,7 +167,7 @@ double braked(State s, double depth, double top, const KinematicLimits& limits) 
         s.go(-j, (s.a - entry) / j);
     } else {
         s.go(-j, (s.a - depth) / j);
-        // continue with this acceleration, then rise as late as possible without falling below -top
+        // holds this acceleration, then lets it rise so late that the velocity just stays above -top
         entry = std::max(depth, -2 * std::sqrt(j * top));
         const double rising = (depth * depth - entry * entry) / (2 * j);
         const double hold = (s.v - rising - top) / -depth;

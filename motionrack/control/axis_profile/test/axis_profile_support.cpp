@@ -83,7 +83,7 @@ Task Tasks::outside() {
 
 std::optional<double> Tasks::motion(Task& t) {
     t = usual();
-    // slightly within the limits: a state that uses all of them may be reachable only to the bit
+    // slightly within the limits: rounding may make a state exactly at its limits unreachable
     t.from.accel *= 0.999;
     t.from.velocity *= 0.999;
     const KinematicLimits m = {0.999 * t.limits.velocity, 0.999 * t.limits.accel, t.limits.jerk};
@@ -94,7 +94,7 @@ std::optional<double> Tasks::motion(Task& t) {
     for (int k = 0; k < phases; ++k, side = -side) {
         double jerk = side * m.jerk * (one_in(4) ? part() : 0.999);
         double dt = between(0, 2) * std::min(m.accel / m.jerk, std::sqrt(m.velocity / m.jerk));
-        // to the acceleration limit, and along it for a while
+        // up to the acceleration limit; then, in one case of three, constant acceleration for a while
         const double until = (side * m.accel - s.accel) / jerk;
         if (dt > until) dt = until;
         for (int part_of = 0; part_of < 2; ++part_of) {

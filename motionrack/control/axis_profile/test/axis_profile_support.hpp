@@ -23,7 +23,7 @@ class Tasks {
   public:
     explicit Tasks(std::uint64_t seed) : random_(seed) {}
 
-    /// Returns 0 .. 1.
+    /// Returns a random number from 0 to below 1.
     double part() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
     double between(double min, double max) { return min + (max - min) * part(); }
     /// Returns a number of either sign, evenly distributed over the orders of magnitude.
@@ -34,7 +34,7 @@ class Tasks {
     Task usual();
     /// Returns a task with limits and distances of any magnitude.
     Task any();
-    /// Makes the target feasible: its velocity and acceleration leave room to stop.
+    /// Makes the target feasible: its velocity stays within the limit while its acceleration is brought to 0.
     void allow(Task& task);
     /// Returns a task whose start is outside the limits.
     Task outside();
@@ -58,8 +58,8 @@ double slowly_found_duration(const Task& task, int steps = 100);
 /// Returns the instant from which on a profile is within the limits.
 double entry_of(const AxisProfile& travel, const KinematicLimits& limits);
 
-/// Returns the minimum time until a start stays within the limits, acceleration first, by a slow search over the depth
-/// of the acceleration.
+/// Returns the minimum time after which a start outside the limits stays within them: first the acceleration returns to
+/// its limit, then the velocity. Slowly searches for the best peak deceleration.
 double slowly_found_entry(const KinematicState& from, const KinematicLimits& limits);
 
 /// Returns a hash of the bits of all phases for `count` tasks.

@@ -89,8 +89,8 @@ TEST(AxisProfile, ReplannedDuringTheMotionTakesTheRemainingTime) {
     }
 }
 
-/// A moving target may be impossible to reach in a time shorter by a rounding, except by a detour; hence only nearly
-/// always.
+/// If rounding makes the remaining time slightly too short for a moving target, only a longer detour reaches it; hence
+/// in nearly all cases.
 TEST(AxisProfile, ReplannedTowardsAMovingTargetTakesTheRemainingTimeInNearlyAllCases) {
     Tasks tasks(14);
     int longer = 0;
@@ -261,7 +261,8 @@ TEST(VelocityChangeProfile, IsTheFastestOfAllProfilesToItsVelocity) {
     }
 }
 
-/// A profile to the final position of a velocity change takes no longer, so it is never faster than that change.
+/// A velocity change is itself a motion to its final position, so the time-optimal profile to that position is not
+/// slower; and no motion changes the velocity sooner.
 TEST(VelocityChangeProfile, EqualsTheProfileToItsEndPosition) {
     Tasks tasks(12);
     for (int i = 0; i < 20'000; ++i) {

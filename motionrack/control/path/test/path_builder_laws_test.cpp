@@ -117,7 +117,7 @@ TEST(PathLaws, AMoveMakesFewSegments) {
         for (const CubicSegment& piece : pieces_of(one.items)) ++count[static_cast<std::size_t>(piece.line)];
         const std::vector<Geometry> paths = paths_of(one.moves);
         for (std::size_t i = 0; i < paths.size(); ++i) {
-            // three knots a corner; up to 8 corners on either side reach over a move
+            // three knots per corner blend; the blends of up to 8 corners on either side may extend over a move
             const double turned = std::fabs(paths[i].sweep) * std::sqrt(std::sqrt(1 + paths[i].radius / half_pulse));
             ASSERT_LE(count[i + 1], 100 + 3 * turned) << "line " << i + 1;
         }

@@ -31,7 +31,7 @@ inline Move line_to(const Point& end, double tolerance_mm = 0.01) {
     return move;
 }
 
-/// Sets a feed rate at which corners are passed.
+/// Sets a feed rate (1 mm/s) at which the motion passes corners without a stop.
 inline Move slow(Move move) {
     move.feed = 1;
     return move;
@@ -97,8 +97,8 @@ inline double xyz_size(const Point& p) {
     return std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
 }
 
-/// Makes programs with all elements: chords on smooth curves, zigzags, corners, arcs, helices, spirals, rotary axes and
-/// dwells. They have all path controls and feed rates, and moves that are too short to be noticed.
+/// Makes programs with all elements: chords on smooth curves, zigzags, corners, arcs, helices, spirals, rotary axes,
+/// dwells, and moves too short to be noticed; with all path controls and feed rates.
 class ProgramMaker {
   public:
     explicit ProgramMaker(std::uint64_t seed) : random_(seed) {}

@@ -25,7 +25,7 @@ int rests(const std::vector<Move>& moves) {
     return rests_in(curve_of(numbered(moves)));
 }
 
-/// Maximum curvature and curvature_rate of XYZ on the curve.
+/// Maximum curvature and curvature rate of XYZ on the curve.
 struct CurvePeaks {
     double curvature = 0, curvature_rate = 0;
 };
@@ -245,7 +245,7 @@ TEST(PathBuilderTest, SkipsTooShortMovesButKeepsTheirEndPoint) {
     EXPECT_LT(items.size(), 40u);
 }
 
-/// Also near corners and junctions each feed rate applies to its own move, whatever the neighbours have.
+/// Each feed rate applies to its own move, also near corners and junctions, whatever the neighbours' feed rates are.
 TEST(PathBuilderTest, FeedsAreThoseOfTheProgram) {
     std::vector<Move> moves = {line_to({10, 0, 0}), line_to({20, 1, 0}), line_to({30, 1, 0}), line_to({40, 0, 0})};
     moves[1].feed = 20;

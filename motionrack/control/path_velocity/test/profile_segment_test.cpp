@@ -20,22 +20,22 @@ void expect_motion_forward(const ProfileSegment& cell) {
                               << cell.velocity2_curvature << " length " << cell.length << " at " << i;
         last = at.u;
     }
-    // The duration is found to 1e-10 of itself, at up to the peak velocity of the cell.
+    // The relative error of the duration is up to 1e-10; the peak velocity converts it to an error of the position.
     const double x = std::clamp(-cell.velocity2_slope / cell.velocity2_curvature, 0.0, cell.length);
     const double peak = std::sqrt(
         std::max(cell.velocity2 + x * (cell.velocity2_slope + 0.5 * cell.velocity2_curvature * x), cell.velocity2));
     ASSERT_NEAR(cell.at(cell.seconds).u, cell.length, 1e-9 * std::max(cell.length, peak * cell.seconds));
 }
 
-/// velocity2 falls to a fiftieth within 1.42 of the phase of an oscillation, whose position comes back after more than
-/// a whole period.
+/// velocity2 falls to about 1/50 at a phase of 1.42 rad of a harmonic oscillation. The oscillation reaches the same
+/// position again after a whole period; the duration must be that of the first passage.
 TEST(ProfileSegment, EndsInTheFirstQuarterOfAnOscillationThatStartsAtItsPeakVelocity) {
     const ProfileSegment cell = parabolic_segment(0, 4.69668748e-12, 3.99782223e-16, 0, -35469344.8);
     EXPECT_LT(cell.seconds, 0.5 * pi / std::sqrt(0.5 * 35469344.8));
     expect_motion_forward(cell);
 }
 
-/// velocity2 is a parabola that is above 0 between two points: the cell is any part of what is between them.
+/// velocity2 is a parabola, above 0 between its two zeros; the cell is a random part of the interval between them.
 TEST(ProfileSegment, AdvancesFromBeginToEndWhereTheVelocityRisesAndFalls) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> part(0, 1);
@@ -54,7 +54,8 @@ TEST(ProfileSegment, AdvancesFromBeginToEndWhereTheVelocityRisesAndFalls) {
     }
 }
 
-/// Half of a period after the beginning the motion is at the end again, on its way back.
+/// Half a period after its beginning, the oscillation passes the end a second time, on its way back; the cell must end
+/// at the first passage.
 TEST(ProfileSegment, EndsWhenItFirstReachesAnEndOfTheSameVelocity) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> part(0, 1);
@@ -69,7 +70,7 @@ TEST(ProfileSegment, EndsWhenItFirstReachesAnEndOfTheSameVelocity) {
     }
 }
 
-/// Rounding of the slope may make the motion turn back before the end.
+/// With a rounded slope, the computed velocity may reach 0 slightly before the end; the cell must still end there.
 TEST(ProfileSegment, EndsAtStandstillWhereTheVelocityAtTheEndIsRoundedToZero) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> part(0, 1);

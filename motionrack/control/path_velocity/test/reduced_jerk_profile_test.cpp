@@ -22,7 +22,7 @@ class LineWithReducedJerk : public testing::Test {
         return a * std::exp(std::log(b / a) * std::uniform_real_distribution<>(0, 1)(random_));
     }
 
-    /// Reduces the jerk at one or both ends.
+    /// Returns the intervals of a line with equal limits, except for a reduced jerk at one or both ends.
     std::vector<LimitInterval> intervals() {
         const double length = between(0.05, 100), velocity = between(5, 200), accel = between(200, 5000),
                      jerk = between(5e3, 1e6);

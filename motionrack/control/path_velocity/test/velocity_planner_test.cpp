@@ -47,7 +47,7 @@ double seconds_of_feed(std::span<const ProfileSegment> pieces) {
     return seconds;
 }
 
-/// Maximum use of the limits, and of any step between segments, over a whole profile.
+/// Highest used share of each limit, and largest relative step between segments (`jump`), over a whole profile.
 struct FeedPeaks {
     double velocity = 0, accel = 0, jerk = 0, jump = 0;
 };
@@ -99,7 +99,7 @@ TEST(VelocityPlanner, PlansTheFastestSCurveForEqualIntervals) {
         }
 }
 
-/// Jerk may last for a distance so short that nearby positions have no digits for it.
+/// The distance over which the jerk acts may be shorter than the resolution of the positions beside it.
 TEST(VelocityPlanner, KeepsTheJerkOfAnIntervalHoweverShort) {
     VelocityPlanner planner;
     for (const double jerk : {1e9, 1e12, 1e15}) {
@@ -108,7 +108,7 @@ TEST(VelocityPlanner, KeepsTheJerkOfAnIntervalHoweverShort) {
         EXPECT_NEAR(seconds_of_feed(pieces) / SCurveProfile(92, 50, 1000, jerk).duration(), 1, 1e-12) << jerk;
         const FeedPeaks peaks = peaks_of(pieces, intervals);
         EXPECT_LE(std::max({peaks.velocity, peaks.accel, peaks.jerk}), 1 + 1e-9) << jerk;
-        EXPECT_LE(peaks.jump, 1e-8) << jerk;  // rounding errors of 50 beside velocities of 1e-12
+        EXPECT_LE(peaks.jump, 1e-8) << jerk;  // rounding errors of 50 mm/s, relative to velocities near 0
         for (const ProfileSegment& piece : pieces) EXPECT_GT(piece.length, 0) << jerk;
     }
 }
@@ -314,14 +314,14 @@ TEST(VelocityPlannerReplan, StartsFromTheGivenMotionAndKeepsTheLimits) {
 TEST(VelocityPlannerReplan, FailsIfItCannotStopInTime) {
     VelocityPlanner planner;
     const std::vector<LimitInterval> intervals = {{0.2, 10, 1000, 20'000}};
-    EXPECT_TRUE(planner.plan_from({100, 0}, intervals).empty());  // the jerk needs 0.2236 mm
+    EXPECT_TRUE(planner.plan_from({100, 0}, intervals).empty());  // stopping from 10 mm/s needs 0.2236 mm
     EXPECT_FALSE(planner.plan_from({100, 0}, std::vector<LimitInterval>{{0.3, 10, 1000, 20'000}}).empty());
     EXPECT_TRUE(planner.plan_from({101, 0}, std::vector<LimitInterval>{{50, 10, 1000, 20'000}})
-                    .empty());  // above the limit at the start
+                    .empty());  // starts above the velocity limit
 }
 
 TEST(Cell, WithAVelocityMinimumInsideHasTheCorrectDuration) {
-    const ProfileSegment cell = parabolic_segment(0, 1, 4, -7, 14);  // minimum 2.25 at the middle
+    const ProfileSegment cell = parabolic_segment(0, 1, 4, -7, 14);  // velocity2 has its minimum 2.25 in the middle
     EXPECT_NEAR(cell.at(cell.seconds).u, 1, 1e-12);
     EXPECT_NEAR(cell.at(cell.seconds).velocity, 2, 1e-9);
     EXPECT_GT(cell.seconds, 0.5);

@@ -1,4 +1,4 @@
-// Rows of corners: gains from the tolerance and from a higher jerk.
+// Sequences of corners: time gained by the corner tolerance and by a higher jerk.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ MachineLimits machine(double jerk) {
 
 struct Row {
     std::string name;
-    double along, up_and_along, up;  ///< one line horizontal, the next one vertical
+    double along, up_and_along, up;  ///< mm: X of a line; X and Y of the next one
 };
 void PrintTo(const Row& row, std::ostream* out) {
     *out << row.name;

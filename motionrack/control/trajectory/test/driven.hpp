@@ -83,7 +83,7 @@ class Driven {
 
     std::size_t come = static_cast<std::size_t>(-1);  ///< maximum number of available moves
     double now = 0, velocity = 0, accel = 0, jerk = 0,
-           jump = 0;  ///< highest use of each limit so far; jump: of the change that they allow
+           jump = 0;  ///< highest used share of each limit; jump: of the changes that the limits allow
     TrajectoryPoint last;
 
   private:

@@ -1,4 +1,4 @@
-// Shared by the trajectory tests: whole trajectories, stored beyond the callback.
+// Shared by the trajectory tests: whole trajectories, copied out of the callback for later use.
 #pragma once
 
 #include <gtest/gtest.h>

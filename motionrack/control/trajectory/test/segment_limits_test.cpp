@@ -14,8 +14,7 @@ namespace {
 class RandomPieces {
   public:
     double between(double min, double max) { return std::uniform_real_distribution<>(min, max)(random_); }
-    /// Returns a segment as from a corner blend: about as long as u, with a curvature that may change its sign, or
-    /// straight.
+    /// Returns a random segment like one of a corner blend, straight or with a curvature that may change its sign.
     CubicSegment next() {
         CubicSegment piece;
         piece.begin = between(0, 100);

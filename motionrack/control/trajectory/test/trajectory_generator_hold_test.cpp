@@ -20,8 +20,8 @@ using trajectory_test::long_line;
 using trajectory_test::machine;
 using trajectory_test::program;
 
-/// The path to the stop may have corners, curves and the end of the known path. If a leg has started before the
-/// previous one has ended, both are executed as planned until that one ends.
+/// The path to the stop may have corners, curves and the end of the known path. If a section has started before the
+/// previous one has ended, the generator executes both as planned until the previous one ends.
 TEST(TrajectoryGeneratorDisturbedAtRandom, NeverAcceleratesAgainOnceItDeceleratesForAFeedHold) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         std::mt19937 random(seed);
@@ -34,14 +34,14 @@ TEST(TrajectoryGeneratorDisturbedAtRandom, NeverAcceleratesAgainOnceItDecelerate
             while (driven.now < when && driven.step(0.001, true)) {
             }
             driven.generator.hold();
-            double peak_velocity = 0, min_velocity = 1e9, rise = 0;  // the last two since it decelerates
+            double peak_velocity = 0, min_velocity = 1e9, rise = 0;  // the last two: since the deceleration began
             while (driven.generator.next(true) == NextMotion::motion) {
                 const TrajectoryPoint before = driven.last;
                 const double at = driven.now;
                 driven.step(0.001, true);
                 const double way = driven.last.u - before.u;
                 if (driven.now - at < 0.0005) continue;  // too short to measure a velocity
-                if (at - when < 0.02 || way < 0) {       // no effect yet, or on the next leg
+                if (at - when < 0.02 || way < 0) {       // no effect yet, or in the next section
                     peak_velocity = 0, min_velocity = 1e9;
                     continue;
                 }
@@ -106,7 +106,7 @@ TEST(TrajectoryGenerator, StopsAsEarlyWhileDeceleratingForOverrides) {
     }
 }
 
-/// The curvature alone takes nearly all of the acceleration of X and Y alternately, and most of their jerk;
+/// The curvature alone uses nearly all of the acceleration of X and Y alternately, and most of their jerk; the
 /// deceleration needs both as well.
 TEST(TrajectoryGenerator, StopsEarlyOnACircleAtItsMaxVelocity) {
     Move circle = arc_from({}, 0, 10, 50);

@@ -47,7 +47,7 @@ class WildMaker {
     double size_between(double low, double high) { return low * std::exp(between(0, std::log(high / low))); }
 
     void make_limits(MachineLimits& limits) {
-        // Equal, or up to a hundred or a million times different.
+        // The limits of the axes are equal, or differ by a factor of up to 100 or 1e6.
         const double apart = one_of(3) == 0 ? 1 : one_of(2) == 0 ? 10 : 1000;
         const bool no_jerk = one_of(10) == 0;
         const double pulses = size_between(100, 1e5);

@@ -16,7 +16,7 @@ TEST(RandomOfflineTrajectory, KeepsLimitsAndToleranceAtEveryInstant) {
     }
 }
 
-/// A move of 6 nm takes 23 s, after a bend at which an axis needs all of its acceleration.
+/// A move of 6 nm takes 23 s, after a curve on which an axis needs all of its acceleration.
 TEST(RandomOfflineTrajectory, IsNeverFasterThanItsBoundForAVeryShortMove) {
     const trajectory_test::Fault fault = trajectory_test::fault_of(trajectory_test::WildMaker(661189243).program());
     EXPECT_EQ(fault.name, "") << fault.text;
@@ -52,8 +52,8 @@ TEST(RandomOfflineTrajectory, OfARotaryAxisKeepsItsFeedAfterAMoveFarBelowAPulse)
     }
 }
 
-/// The arc is shorter than the move before it, which is far below a pulse and leads beyond the end of the arc: together
-/// they are nearly nothing, and no full circle.
+/// The arc is shorter than the move before it, which is far below a pulse and leads beyond the end of the arc. Together
+/// they have nearly zero length and are not a full circle.
 TEST(RandomOfflineTrajectory, MakesNoFullCircleOfAnArcShorterThanThePrecedingMove) {
     trajectory_test::WildProgram program;
     for (AxisLimits& axis : program.limits) axis = {true, -1e9, 1e9, 100, 1000, 20'000, 1, 80};
