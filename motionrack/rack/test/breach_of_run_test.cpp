@@ -1,5 +1,5 @@
-// A breach in a run, as `motionrack run` makes it: the summary, its JSON and the headline of the report say so, and the
-// run is not good, which is exit code 4.
+// A limit breach during a run, as of `motionrack run`: the summary, its JSON and the headline of the report state it,
+// and the outcome is not good (exit code 4).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// A spiral in chords of 2 ms.
+/// Returns a spiral in chords of 0.2 mm, each of 2 ms at F6000.
 std::string short_chords() {
     std::string out = "G21 G90 G64 P0.01\nG0 X170 Y100\nG1 F6000\n";
     double angle = 0;
@@ -30,7 +30,7 @@ std::string short_chords() {
     return out + "M2\n";
 }
 
-/// Its host does nothing for 20 ms; its motors lose steps, and nothing watches them.
+/// A run whose host pauses for 20 ms: its motors lose steps, and the following-error supervision is off.
 class RunWithABreach : public testing::Test {
   protected:
     void SetUp() override {

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double start_hz = 1280, accel_hz = 640'000;  // 2 mm/s and 1,000 mm/s2 at 640 pulses per mm
 
-/// Returns the largest step found in a motion whose pulses at `t` s are `place(t)`, and the number of steps.
+/// Samples a motion whose pulse count at `t` seconds is `position(t)`, for 0.4 s. Returns the largest velocity step
+/// found; sets `times` to the number of steps.
 template <class Place>
 JumpWatch::Jump sample_jump(Place position, int& times, Duration period = milliseconds(1)) {
     JumpWatch watch(start_hz, accel_hz, period);

@@ -1,4 +1,4 @@
-// Types of card: what they can do, who names them; which have a live port, and the reasons of those that have none.
+// Card types: their capabilities, the files that may name them, and their live ports or the reasons for having none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ TEST(CardPlugins, AreFoundByWhatTheyCanDo) {
 }
 
 TEST(CardPlugins, AreNamedByTheCatalogueAndByTheirOwnFilesAlone) {
-    // Frames and stages are those of the grating bus.
+    // Files named after frames and stages belong to the grating bus.
     constexpr std::array<std::string_view, 8> own = {"mcx314_", "databoard4002_", "ioflex02_", "rtc5_",
                                                      "io8255_", "grating",        "frame_",    "stage."};
     int files = 0;

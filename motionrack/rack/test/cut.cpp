@@ -32,7 +32,7 @@ void carry_out(Session& session, const Order& order) {
     }
 }
 
-/// Reads a value of each kind of card, and of the machine; a rack has some of them.
+/// Reads values of the machine, of each kind of card and of wires; a rack has only some of them.
 void ask(Session& session) {
     for (const char* part : {"X.position_mm", "g2.age_us", "table.position_mm"}) static_cast<void>(session.part(part));
     constexpr std::array<std::array<const char*, 2>, 6> values = {{{"c1", "RR0"},
@@ -96,14 +96,14 @@ std::string difference(const std::string& one, const std::string& other) {
 }
 
 struct World {
-    /// `recording`: end of the name of a file with all signals, such as whole.csv; empty: none.
+    /// `recording`: end of the name of a file that records all signals, such as whole.csv; empty: no recording.
     World(const std::string& text, const std::string& recording)
         : session(std::move(*Session::open(text))),
           path((fs::temp_directory_path() / fmt::format("motionrack_cut_{}_{}", ::getpid(), recording)).string()) {
         EXPECT_TRUE(recording.empty() || session->start_trace(path, "*"));
     }
     ~World() { fs::remove(path); }
-    /// Runs are broken at each of them and continue.
+    /// Interrupts and continues runs at each condition.
     void hear_conditions() {
         hears = true;
         session->on_condition([](const ReportedCondition&) {});
@@ -118,7 +118,7 @@ struct World {
     bool hears = false;
 };
 
-/// A recording is of one session, so no copies here.
+/// Expects equal recordings of both racks. A recording belongs to one session, so no session is copied.
 void expect_the_same_recording(const Story& story, std::uint64_t seed, const std::string& ending) {
     SCOPED_TRACE(ending);
     Random knife(seed + 2);

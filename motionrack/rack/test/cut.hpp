@@ -74,16 +74,16 @@ inline void PrintTo(const Bench& bench, std::ostream* out) {
     *out << bench.name;
 }
 
-/// All kinds of card, alone and together.
+/// Returns racks with all kinds of card, alone and together.
 std::vector<Bench> benches();
 std::vector<Bench> mcx314_benches();
 
-/// Text of a rack with an MCX314, c1, and its axes X and B; `settings`: lines of the card.
+/// Returns the text of a rack with an MCX314, c1, and its axes X and B; `settings`: lines of the card.
 std::string mcx314_machine(std::string_view settings = "");
-/// A random operation of a card, possibly with several accesses. The MCX314 is c1, with the axes X and B.
+/// Returns a random operation of an MCX314, c1, with the axes X and B; it may consist of several accesses.
 Orders anything_to_pulse_chip(Random& random);
 
-/// Gives each step its own duration, up to `max_ns`.
+/// Returns `count` steps with commands from `orders`, each with its own random duration of 50 ns to `max_ns`.
 std::vector<Step> steps_of(Random& random, int count, const std::function<Orders(Random&)>& orders,
                            double max_ns = 3e7);
 

@@ -50,7 +50,7 @@ void path(Orders& out, Random& random) {
     command(out, 0, drawn(random, 0x30, 0x33));
 }
 
-/// Writes words of a bit pattern, sometimes without an end, and its drive.
+/// Writes a bit pattern of one to three words, sometimes without an end, then its drive command.
 void pattern(Orders& out, Random& random) {
     command(out, 0, 0x36);
     for (std::uint64_t words = drawn(random, 1, 3); words > 0; --words) {
@@ -124,7 +124,7 @@ Order order_of(const Op& op) {
     }
 }
 
-/// Register program `seed`, of a chip alone or on a machine, with accesses that take no time.
+/// Returns register program `seed` for a chip alone or on a machine, with accesses that take no time.
 Story register_program(std::uint64_t seed, ChipOptions options) {
     constexpr std::uint64_t tick_ns = 125;
     const mcx314::twin::Program program = mcx314::twin::make_program(0xC07, seed, options);
@@ -178,13 +178,13 @@ Orders anything_to_pulse_chip(Random& random) {
             speeds(out, axes, random);
             break;
         case 1:
-        case 2:  // a fixed number of pulses
+        case 2:  // a drive of a fixed number of pulses
             mode(out, axes, 3, below(random, 8) | below(random, 2) << 7);
             data(out, axes, 0x06, below(random, 4'000));
             data(out, axes, 0x07, below(random, 4'000));
             command(out, axes, drawn(random, 0x20, 0x21));
             break;
-        case 3:  // endless, and a change of velocity
+        case 3:  // an endless drive and a change of its velocity
             command(out, axes, drawn(random, 0x22, 0x23));
             data(out, axes, 0x05, drawn(random, 1, 4'000));
             break;

@@ -65,7 +65,7 @@ Orders ioflex02(Random& random) {
             const auto place = 0x2300 + 2 * static_cast<std::uint32_t>(below(random, 40));
             return {bus("p1", 16, place, below(random, 16))};
         }
-        case 2: {  // both lines at the same instant: not a step of an encoder
+        case 2: {  // both lines at the same instant, unlike an encoder
             const double a = bit(), b = bit();
             return {level("p1.a0", a), level("p1.b0", b)};
         }
@@ -77,7 +77,7 @@ Orders ioflex02(Random& random) {
     }
 }
 
-/// Modes 0 and 1 only, and strobes more often than other lines.
+/// Random operation of an IO8255: only modes 0 and 1; strobes change more often than other lines.
 Orders io8255(Random& random) {
     const auto bit = [&] { return static_cast<double>(below(random, 2)); };
     switch (below(random, 6)) {
@@ -206,7 +206,8 @@ constexpr const char* encoder_wires = R"([wires]
 "s.enc1_b" = "B.enc_a"
 )";
 
-/// Every third seed has a loop through the frames; in the others frames are so close that many calls end within one.
+/// Every third seed has a servo loop closed through the frames. In the others, the frame period is so short that many
+/// calls end within a frame.
 Story grating_story(std::uint64_t seed) {
     Random random(seed);
     const bool servo = seed % 3 == 0;

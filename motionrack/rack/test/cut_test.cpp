@@ -16,8 +16,8 @@ TEST_P(Cut, OfTimeDoesNotChangeTheEventTrace) {
         expect_the_same_however_it_is_cut(GetParam(), first + i);
 }
 
-// While an arc at constant vector speed is skipped, a motor watches another range of the axis: the bound of the skip,
-// the end of the octant, has to be found again afterwards and holds until then.
+// While the chip skips an arc at constant vector speed, a motor watches another range of the axis. The chip must then
+// compute the bound of the skip (the end of the octant) again; it is valid until then.
 TEST(CutThroughAnArc, AtConstantVectorSpeedDoesNotChangeTheEventTraceIfAMotorWatchesAnotherRange) {
     expect_the_same_however_it_is_cut(mcx314_benches().back(), 709850194);
 }

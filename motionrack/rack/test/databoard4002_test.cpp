@@ -56,7 +56,7 @@ TEST(Databoard4002InARack, ACardAlonePositionsItsIdealMotor) {
     EXPECT_EQ(low | host.in(0) << 8, 1000u);
 }
 
-/// With the card's program hung, only the relay removes the voltage.
+/// If the card's program hangs, only the relay removes the voltage.
 TEST(Databoard4002InARack, AWireSelectsWhetherTheServoIsBehindTheRelayOrBeforeIt) {
     for (const bool direct : {false, true}) {
         Host host(std::string("[card.c1]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"c1\"\n[axis.X.servo]\n") +
@@ -140,7 +140,7 @@ TEST(Databoard4002InARack, TwoCardsShareABusAndAnswerToTheirNumbers) {
         "[card.c1]\ntype = \"databoard4002\"\n[card.c2]\ntype = \"databoard4002\"\ncard_number = 7\nversion = 3\n");
     host.out(1, 7);
     host.command('R', {0x00, 0x20});
-    host.command('P', {0x64, 0x00, 0x00}, "c1");  // the card's own name also selects the bus
+    host.command('P', {0x64, 0x00, 0x00}, "c1");  // to c2 (number 7): c1 names the shared bus, too
     host.command('G');
     ASSERT_TRUE(host.session->advance(10'000'000'000));
     EXPECT_EQ(*host.session->peek("c2", "POSITION"), 100);

@@ -149,7 +149,7 @@ class Mcx314Moves {
     std::int64_t max_speed_, max_pulses_;
 };
 
-/// Returns true if another move follows: the first ones of few may all be too short for a pulse.
+/// Returns true if another move follows: `moves` of them, and up to 100 more while none has made a pulse.
 inline bool moves_on(std::uint64_t made, std::uint64_t moves, const Counted& bench) {
     return goes_on(made, moves, moves + 100, bench.seen.first != 0);
 }

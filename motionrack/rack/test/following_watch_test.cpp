@@ -53,7 +53,7 @@ TEST(FollowingError, AboveItsAlarmLimitStopsTheMachineAndInvalidatesThePosition)
     const JobOutcome outcome = run_with("following_error_alarm_mm = 0.2\n", {"X.motor.stall@1s"});
     ASSERT_FALSE(outcome.ended);
     EXPECT_EQ(outcome.ended.error().kind, ErrorKind::machine);
-    // 0.2 mm are 20 ms, checked every millisecond.
+    // At 10 mm/s, 0.2 mm take 20 ms; the job checks every millisecond.
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("The following error of X was 0.2"));
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("above its limit of 0.2 mm at 1.02"));
     EXPECT_THAT(outcome.ended.error().message, HasSubstr("The position of X is not valid any more"));

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Change of the switch when homing has been in a state for a number of looks of 50 ms.
+/// A fault of the switch, injected after homing has been in `state` for `looks` polls of 50 ms.
 struct Turn {
     std::string state;
     int looks;

@@ -165,7 +165,7 @@ TEST(RackHomes, ToTheIndexOfTheFirstHomingOnly) {
     ASSERT_TRUE(home_axes(rack, settings).all_homed());
     EXPECT_NEAR(seen[0].value_or(0), 2, 1e-9) << "learned";
     EXPECT_TRUE(home_axes(rack, settings).all_homed()) << "the same again";
-    seen[0] = 4;  // as if another index had come first
+    seen[0] = 4;  // as if an earlier homing had seen its index there
     const HomingOutcome moved = home_axes(rack, settings);
     ASSERT_FALSE(moved.ended);
     EXPECT_THAT(moved.ended.error().message, HasSubstr("2.0000 mm behind the switch; it must be 4.0000 mm"));

@@ -17,7 +17,7 @@ namespace {
 namespace io = ioflex02;
 using ::testing::HasSubstr;
 
-/// Forces lines and reads over the bus.
+/// A rack whose lines are forced and whose card is read over the bus.
 struct Ioflex02Bench {
     explicit Ioflex02Bench(const std::string& text = "card.p1 = \"ioflex02\"")
         : session(std::move(*Session::open(text))) {
@@ -27,7 +27,7 @@ struct Ioflex02Bench {
         ASSERT_TRUE(session->set_wire(wire, level));
         ASSERT_TRUE(session->advance(1'000));
     }
-    /// Turns that channel forward by a number of counts.
+    /// Turns the encoder at `channel` forward by a number of counts.
     void turn(int counts, const std::string& card = "p1", int channel = 0) {
         for (int i = 0; i < counts; ++i) {
             const bool a = phase % 4 == 0 || phase % 4 == 2;

@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// One lamp shines while the emergency stop is released, the other has no wire.
+/// A rack with two lamps: one is lit while the emergency stop is released, the other has no wire.
 const char* const two_lamps = R"(
 [card.m]
 type = "mcx314"

@@ -166,7 +166,7 @@ TEST(Links, ThePulsesOfAnotherChannelDriveTheMotor) {
     const Ended ended =
         run_wires("X.step = \"m.upp\"\nX.dir = \"m.upm\"\nA.step = \"m.xpp\"\nA.dir = \"m.xpm\"\n", false);
     EXPECT_TRUE(ended.outcome.ended);
-    // 20 degrees are 16,000 pulses, at 640 pulses per mm; 10 mm are 6400 pulses, at 800 per degree.
+    // The 16,000 pulses of 20 degrees move X at 640 pulses per mm; the 6400 pulses of 10 mm move A at 800 per degree.
     EXPECT_EQ(ended.outcome.axes[0].actual_end, 25);
     EXPECT_EQ(ended.outcome.axes[1].actual_end, 8);
     EXPECT_FALSE(ended.outcome.position_valid);

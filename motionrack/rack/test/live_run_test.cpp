@@ -1,4 +1,4 @@
-// What a run with commands reports: the same as one without them.
+// Report of a run with commands: it equals that of a run without commands.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// Makes a run take commands, and is none in it.
+/// A command after the end of the run: it makes the job accept commands and changes nothing.
 const std::pair<double, std::string> after_the_end = {1e5, "feed=1"};
 
 class LiveRunReport : public testing::TestWithParam<const char*> {};

@@ -1,5 +1,5 @@
-// Random programs in chords from 2 um to 50 mm, with arcs and probing moves, on several racks, in both profiles. They
-// are held, slowed, resumed and stopped at random instants: no axis has a velocity step, and the end is correct.
+// Random programs in chords from 2 um to 50 mm, with arcs and probing moves, on several racks, in both profiles.
+// Requests hold, slow, resume and stop them at random instants: no axis has a velocity step, and the end is correct.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +29,8 @@ inline constexpr double probe_height = 60, program_height = 75;
 
 enum class Arcs { none, some };
 
-/// Paths of straight moves: smooth curves, sharp corners and reversals, each in chords of one length or of many. With
-/// arcs, half of the programs have stretches of arcs and helices between them.
+/// Makes paths of straight moves: smooth curves, sharp corners and reversals, each in chords of one length or of many.
+/// With arcs, half of the programs have sequences of arcs and helices between them.
 class ChordMaker : public Chance {
   public:
     explicit ChordMaker(std::uint64_t seed, Arcs arcs = Arcs::none)
@@ -90,21 +90,22 @@ class ChordMaker : public Chance {
         const bool mixed = pick(4) == 0, with_z = pick(3) == 0;
         if (pick(3) == 0) out_.text += fmt::format("F{:.0f}\n", feed());
         if (pick(2) == 0) heading_ += number(-3.2, 3.2);
-        // A ramp: Z moves by less than a pulse per chord, or by more.
+        // On a ramp, Z moves by less than a pulse per chord, or by more.
         const bool is_ramp = ramps_.pick(3) == 0;
         const double slope = is_ramp ? ramps_.even_on_log(1e-5, 0.1) * (ramps_.pick(2) == 0 ? 1 : -1) : 0;
         double z = 0;
         for (double s = 0; s < length;) {
-            // A step from the start of the way back towards the middle stays on the table.
+            // Steps of at most 50 mm stay on the table: a step that starts more than 45 mm from its middle leads
+            // towards it.
             const double step = std::min(50.0, mixed ? chord * even_on_log(0.1, 3) : chord);
             heading_ += bend * std::min(step, 2.0);
             if (pick(40) == 0) heading_ += number(-3.2, 3.2);
-            // Towards the middle before the table ends.
+            // Turns towards the middle of the table where its distance is above 45 mm.
             if (std::hypot(out_.x - 150, out_.y - 100) > 45) heading_ = std::atan2(100 - out_.y, 150 - out_.x);
             out_.x = rounded(out_.x + step * std::cos(heading_));
             out_.y = rounded(out_.y + step * std::sin(heading_));
             if (is_ramp)
-                z = std::clamp(z + slope * step, -4.5, 4.5);  // of 5 to the end of travel
+                z = std::clamp(z + slope * step, -4.5, 4.5);  // Z 75 is 5 mm below its limit
             else if (with_z)
                 z = std::clamp(z + 0.3 * step * number(-1, 1), -3.0, 3.0);
             out_.text += fmt::format("X{:.4f} Y{:.4f}{}\n", out_.x, out_.y,
@@ -114,7 +115,7 @@ class ChordMaker : public Chance {
         out_.seconds += length / 60;
     }
 
-    /// Adds arcs, most of them tangential to what is before them, some of them helices.
+    /// Adds arcs, most of them tangential to the path before them, some of them helices.
     void add_arcs() {
         const int count = 1 + arcs_.pick(8);
         const bool helices = arcs_.pick(3) == 0;
@@ -154,7 +155,7 @@ inline RackConfig router_with_probe() {
     return *read_rack_text(text + fmt::format("\n[probe]\nz_max_mm = {}\n", probe_height)).config;
 }
 
-/// Racks with different pulses, velocity step limits and hosts.
+/// Returns a rack with random microsteps, host latency and bus access time.
 inline RackConfig rack_of(ChordMaker& random, const std::string& profile) {
     RackConfig config = random.probes() ? router_with_probe() : router();
     config.controller.profile = profile;
@@ -199,7 +200,7 @@ inline test::LimitFactors of_random_profile(const RackConfig& config) {
     return config.jerk_limited() ? test::LimitFactors() : test::known_breaches("random_trapezoids");
 }
 
-/// A stop, as a command or as Ctrl-C; added to a program without one, or in place of it.
+/// Requests a stop by Ctrl-C or by a flag, in addition to the other requests or in place of a stop command.
 inline void ask_stop(Disturbed& disturbed, Chance& chance, double seconds) {
     if (chance.pick(disturbed.stopped ? 2 : 5) > 0) return;
     double at = chance.number(0.001, seconds);
@@ -207,13 +208,13 @@ inline void ask_stop(Disturbed& disturbed, Chance& chance, double seconds) {
         at = disturbed.wishes.back().first;
         disturbed.wishes.pop_back();
     }
-    // A job with commands checks for Ctrl-C itself.
+    // A job without commands may be stopped by a flag instead; one with commands checks for Ctrl-C itself.
     const bool alone = disturbed.wishes.empty() && chance.pick(2) == 0;
     disturbed.wishes.emplace_back(at, alone ? "flag" : "ctrl-c");
     disturbed.stopped = true;
 }
 
-/// Runs the random program of `seed`. MOTIONRACK_SEED=N with MOTIONRACK_PROGRAMS=1 runs that of seed N alone.
+/// Runs the random program of `seed`. MOTIONRACK_SEED=N with MOTIONRACK_PROGRAMS=1 runs only that of seed N.
 inline void drive_one(std::uint64_t seed, Arcs arcs = Arcs::none) {
     ChordMaker random(seed, arcs);
     const std::string profile = seed % 2 == 0 ? "trapezoid" : "jerk_limited";
@@ -234,9 +235,9 @@ inline void drive_one(std::uint64_t seed, Arcs arcs = Arcs::none) {
     if (!disturbed.stopped || driven.outcome.ended) expect_end(driven, program.x, program.y);
 }
 
-/// A host that is late at random instants: its axes stop there without a ramp and lose steps, but the card sends each
-/// pulse of the program, and continues in about the planned time. Where another axis has to lead the chain, it goes at
-/// least at 0.7 of it.
+/// Runs a program on a host that is late at random instants. The axes then stop without a ramp and lose steps, but the
+/// card sends each pulse of the program and continues in about the planned time: in at most 1.45 times it, plus the
+/// delays and 0.3 s for each.
 inline void drive_late(std::uint64_t seed) {
     ChordMaker random(seed, Arcs::some);
     if (random.probes()) return;

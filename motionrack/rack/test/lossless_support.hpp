@@ -19,7 +19,7 @@ struct Driven {
     JobOutcome outcome;
     test::PulseReferee::Verdict worst;
     double peak_accel_factor = 0;  ///< see Invariants
-    bool held = false;             ///< stopped on its way because of a hold
+    bool held = false;             ///< a hold has stopped the program on its way
 };
 
 /// Seconds since the start, and the request at that instant.
@@ -39,9 +39,10 @@ class FlagAt final : public sim::Device {
     std::atomic<bool> flag_{false};
 };
 
-/// Requests are commands of the job; or "ctrl-c", which the job checks between two runs of the kernel; or, alone,
-/// "flag", as seen by a program with its own job. `slice`: called throughout the run. `known`: known breaches of the
-/// run, beside those of its profile. `accel_parts`: see PulseReferee.
+/// Runs a program with requests at given instants. A request is a command of the job; "ctrl-c", which the job checks
+/// between two runs of the kernel; or "flag" (only without other requests), as a program with its own job sets it.
+/// `slice`: called throughout the run. `known`: known breaches of the run, in addition to those of its profile.
+/// `accel_parts`: see PulseReferee.
 inline Driven drive_with(const RackConfig& config, const std::string& program, const Wishes& wishes,
                          const std::function<void(Rack&)>& slice = {}, const test::LimitFactors& known = {},
                          double accel_parts = 1) {
@@ -89,7 +90,7 @@ inline Driven drive_with(const RackConfig& config, const std::string& program, c
     return out;
 }
 
-/// The same motors with other drives.
+/// Sets the microsteps of the drives; the motors keep their limits in full steps per second.
 inline void set_microsteps(RackConfig& config, std::int64_t microsteps) {
     for (RackAxis& axis : config.axes) {
         const double times = static_cast<double>(microsteps) / static_cast<double>(axis.microsteps);
@@ -109,7 +110,7 @@ inline void expect_lossless(const Driven& driven, double jump = 1.15) {
         EXPECT_EQ(axis.pulses_net, axis.pulse_position - axis.pulse_start);
 }
 
-/// Expects the end of a program of G1 X.. Y..
+/// Expects that a program ends at X and Y, within half a pulse.
 inline void expect_end(const Driven& driven, double x, double y) {
     ASSERT_TRUE(driven.outcome.ended) << driven.outcome.ended.error().text();
     const auto pulse = [&](std::size_t i) { return 0.51 / driven.outcome.axes[i].limits.pulses_per_unit; };

@@ -19,10 +19,10 @@ Wishes holds(double first, double every, int count) {
 
 struct Path {
     std::string text;
-    double x = 0, y = 0;  ///< its end
+    double x = 0, y = 0;  ///< end of the program, mm
 };
 
-/// A spiral about the middle of the table, in chords of this length.
+/// Returns a spiral about the middle of the table, in chords of this length.
 Path spiral(double chord, double length) {
     Path out{"G21 G90 G64 P0.01\nG0 X170 Y100\nG1 F6000\n"};
     double angle = 0;
@@ -48,7 +48,7 @@ Path collinear(double line, double length) {
     return out;
 }
 
-/// A cross-section of a relief, along X.
+/// Returns a cross-section of a relief, along X.
 Path relief(double chord, double length, double feed) {
     Path out{fmt::format("G21 G90 G64 P0.005\nG0 X10 Y10 Z75\nG1 F{}\n", feed)};
     out.y = 10;
@@ -125,8 +125,8 @@ TEST_P(Lossless, AHostWithoutLatencyAndASlowOneLoseNoPulse) {
     }
 }
 
-/// Short chords, of which the last one slows down for a corner behind which Z moves too, and a short line behind it for
-/// the next corner: there a pulse of the chip is more of the path than in front of it.
+/// Short chords; the last one decelerates for a corner after which Z moves too, and a short line before the next corner
+/// follows. There, a pulse of the chip is a longer distance of the path than before the corner.
 TEST_P(Lossless, ShortLinesDecelerateInTimeForACornerAtWhichZContinues) {
     RackConfig config = router(GetParam());
     set_microsteps(config, 64);
@@ -146,8 +146,7 @@ TEST_P(Lossless, ShortLinesDecelerateInTimeForACornerAtWhichZContinues) {
     expect_undisturbed(config, path, 2);
 }
 
-/// Moves from standstill to standstill, in each of which X has less than half a pulse.
-/// On a diagonal line the generator has a higher rate than an arc of the same velocity.
+/// On a diagonal line, the pulse generator has a higher rate than on an arc of the same velocity.
 TEST_P(Lossless, AnArcDeceleratesInTimeFromTheRateOfADiagonalLine) {
     std::string text = "G21 G90 G17 G64 P0.002\nG0 X152.3125 Y101.0757 Z75\nG1 F2750\n";
     for (int i = 1; i <= 23; ++i)
@@ -161,6 +160,7 @@ TEST_P(Lossless, AnArcDeceleratesInTimeFromTheRateOfADiagonalLine) {
     expect_lossless(drive_with(config, text, {}));
 }
 
+/// The program has moves from standstill to standstill, in each of which X has less than half a pulse.
 TEST_P(Lossless, AnAxisWithLessThanAPulsePerMoveEndsAtItsTarget) {
     RackConfig config = router(GetParam());
     set_microsteps(config, 16);
@@ -175,7 +175,7 @@ TEST_P(Lossless, AnAxisWithLessThanAPulsePerMoveEndsAtItsTarget) {
     expect_end(driven, path.x, path.y);
 }
 
-/// A ramp in chords or quarter circles, in each of which Z has less than half a pulse.
+/// The program is a ramp in chords or quarter circles, in each of which Z has less than half a pulse.
 TEST_P(Lossless, AnAxisWithLessThanAPulsePerChordStaysOnThePath) {
     const auto ramp = [](double angle, double rise, bool arcs) {
         Path out{"G21 G90 G64 P0.01\nG0 X170 Y100 Z40\nG1 F1200\n"};
@@ -195,7 +195,7 @@ TEST_P(Lossless, AnAxisWithLessThanAPulsePerChordStaysOnThePath) {
     }
 }
 
-/// The end of its short drives may coincide with the instant at which the queue has room.
+/// The end of a short drive of the fourth axis may coincide with the instant at which the queue has room.
 TEST_P(Lossless, AFourthAxisThatOftenStopsDelaysNothing) {
     Path path{"G21 G90 G64 P0.01 F1051\nG0 X170 Y100 Z40\n", 0, 0};
     for (int i = 1; i < 153; ++i) {
@@ -230,7 +230,7 @@ TEST(Host, ADelayedHostIsReportedWithPositionAndDelay) {
     bool late = false;
     const Path path = spiral(0.2, 200);
     RackConfig config = router();
-    for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;  // its motors lose steps
+    for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;  // the motors lose steps
     const auto be_late = [&](Rack& rack) {
         if (late || rack.kernel().now() < milliseconds(2500)) return;
         late = true;
@@ -256,11 +256,11 @@ TEST(Host, ADelayedHostIsReportedWithPositionAndDelay) {
     expect_end(driven, path.x, path.y);
 }
 
-/// In the second program X begins the chain and does not move in the lines before which the host is late: Y has to
-/// drive what follows.
+/// In the second program, X starts the chain of segments but does not move in the lines before which the host is late:
+/// Y must take its place in the following segments.
 TEST_P(Lossless, ALateHostContinuesAtTheProgrammedFeed) {
     RackConfig config = router(GetParam());
-    for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;  // its motors lose steps
+    for (RackAxis& axis : config.axes) axis.following_error_alarm = 0;  // the motors lose steps
     for (const char along : {'X', 'Y'}) {
         std::string text = "G21 G90 G64 P0.01\nG0 X100 Y100 Z40\nG1 F3000\nX102\n";
         for (int i = 1; i <= 200; ++i) text += fmt::format("{}{:.4f} Z{:.4f}\n", along, 102 + 0.2 * i, 40 + 0.1 * i);

@@ -46,7 +46,7 @@ struct Line {
         return value.value_or(NAN);
     }
     std::int64_t peek(const char* name) { return *session->peek("scan", name); }
-    /// A square of 10 mm at 500 mm/s from the field's origin, with or without correction by encoder 0.
+    /// Marks a square of 10 mm at 500 mm/s from the field's origin, with or without correction by encoder 0.
     void square(double scale) {
         ASSERT_TRUE(engine().set_start_list(1));
         put(Op::set_mark_speed, {5184 * 0.5});

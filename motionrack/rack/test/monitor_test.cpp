@@ -30,7 +30,7 @@ class Watch {
         monitor_.programmed(move, at_);
         at_ = move.end;
     }
-    /// Submits the planner's version of the moves from `index`.
+    /// Reports a planned move to (x, y) that starts at `at` and belongs to the programmed move `index`.
     void plan(double x, double y, std::int64_t index, std::int32_t line, Instant at) {
         control::PlannedMove planned;
         planned.move.index = index;
@@ -63,7 +63,7 @@ class Watch {
     std::int64_t moves_ = 0, blocks_ = 0;
 };
 
-/// 10 mm along X, then 10 mm along Y, with the corner blended over `cut` seconds of both.
+/// Returns a motion of 10 mm along X, then 10 mm along Y, with both axes moving for `cut` at the corner.
 Watch corner(Duration cut) {
     const Duration side = each_pulse * 6'400;
     return Watch({{Instant{}, each_pulse, 1}, {side, each_pulse, 0}},
@@ -94,7 +94,7 @@ TEST(Monitor, ComparesTheMachineWithTheProgramAndNotWithThePlan) {
 }
 
 TEST(Monitor, AcceptsCornersWithinTheirTolerance) {
-    Watch watch = corner(milliseconds(6));  // 0.094 mm, thus 0.047 mm from both sides
+    Watch watch = corner(milliseconds(6));  // 0.094 mm, thus 0.047 mm from each side
     watch.line(10, 0, 3);
     watch.line(10, 10, 4);
     watch.plan(10, 10, 0, 3, Instant{});

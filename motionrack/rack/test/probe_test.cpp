@@ -64,11 +64,11 @@ TEST(Probing, LatchesTheSamePulseAtEveryFeed) {
         const JobOutcome out = run_probe(rack_text("x_min_mm = " + std::to_string(edge) + "\n"), program);
         ASSERT_TRUE(out.ended) << out.ended.error().message;
         EXPECT_EQ(set_probe_result(out), std::vector{at("touched", whole(edge), 0, 80)}) << "F" << feed;
-        // It stops beyond the edge, within the braking distance and a margin.
+        // The axis stops beyond the edge, within the braking distance at 900 mm/s2 and a margin.
         const double velocity = feed / 60.0, way = out.axes[0].actual_end - whole(edge);
         EXPECT_GE(way, 0);
         EXPECT_LE(way, velocity * velocity / 2 / 900 + velocity * 0.03 + 0.01)
-            << "F" << feed;  // at 1000 mm/s2 and 20,000 mm/s3
+            << "F" << feed;  // the axis has 1000 mm/s2 and 20,000 mm/s3
         EXPECT_EQ(out.axes[0].lost_pulses, 0);
     }
 }

@@ -91,7 +91,7 @@ TEST(ProgrammedPath, ComparesNoFartherThanTheMachineCanHaveMoved) {
     EXPECT_NEAR(program.path.distance(part_of(0, 3), 1, 2, 0).mm, 1, 1e-12) << "the last move is nearer than the first";
 }
 
-/// Same result as from checking all moves one by one.
+/// The result equals that of a check of all moves one by one.
 TEST(ProgrammedPath, FindsTheNearestOfManyShortMoves) {
     Written program({0, 0});
     std::vector<control::Point> corners = {{0, 0}};

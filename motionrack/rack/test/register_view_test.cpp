@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// An empty slot.
+/// An empty slot: each read returns FFFFh.
 class Empty final : public RegisterPort {
   public:
     void write(std::uint32_t offset, std::uint16_t value) override { writes.emplace_back(offset, value); }
@@ -26,7 +26,7 @@ class Empty final : public RegisterPort {
     std::vector<std::uint32_t> reads;
 };
 
-/// A virtual card that has driven.
+/// Views of a virtual card that has executed a drive.
 class RegisterViews : public testing::Test {
   protected:
     RegisterViews() : rack_(*read_rack_text(*rack_template("router")).config) {
@@ -101,7 +101,7 @@ TEST(DataBoardsView, ShowsItsStatusItsPositionAndItsRate) {
     ASSERT_TRUE(driver.connect());
     ASSERT_TRUE(driver.set_rate(16'000));
     ASSERT_TRUE(driver.move_to(-30, whole_seconds(1)));
-    card.host().pass(milliseconds(1));  // it is busy with the last command
+    card.host().pass(milliseconds(1));  // the card is still busy with the last command
     const Result<RegisterView> view = databoard4002_plugin.view({nullptr, card.byte_port(), &card.host(), 5}, false);
     ASSERT_TRUE(view) << view.error().message;
     EXPECT_THAT(view_text(*view, false), HasSubstr("STAT    80h  status\n          READY  1 "));

@@ -25,7 +25,7 @@ struct Machine {
     double velocity() { return rack.axes()[0].velocity(rack.kernel().now()); }
     sim::VirtualHost& host() { return rack.axes()[0].card->host(); }
     Instant now() { return rack.kernel().now(); }
-    /// Checks the axis every ms during that time.
+    /// Lets this time pass; steps the axis every millisecond.
     void run(Duration time) {
         for (const Instant end = now() + time; now() < end; host().pass(milliseconds(1))) axis->step(now());
     }
@@ -143,7 +143,7 @@ TEST(ServoAxis, AStopDeceleratesAndAStopAtOnceIsShorterAndBothKeepThePosition) {
 }
 
 TEST(ServoAxis, TheEndStopEndsAMoveAndAllowsTheOtherDirection) {
-    Machine m;  // its position is invalid, so nothing else keeps it within its travel
+    Machine m;  // without a valid position no soft limit is active
     ASSERT_TRUE(m.axis->move_by(3'500, 300));
     const auto moved = m.axis->wait(whole_seconds(30));
     ASSERT_FALSE(moved);

@@ -79,7 +79,7 @@ TEST(LatchedStop, InADwellOfAJerkLimitedMachineEndsTheProgram) {
 TEST(LatchedStop, IsObservedUntilItsEffectShowsAlsoInARunThatTakesCommands) {
     const std::vector<std::string> button = {"estop=0@1s"};
     const double ended_s = to_seconds(run_stopped(stop_axes, dwelling, button, {"feed=1@0.1s"}).outcome.time);
-    // A command makes a slice of the time in which the motors are looked at.
+    // The second command falls into the time in which the job still observes the motors, and divides it into slices.
     const StoppedRun ran =
         run_stopped(stop_axes, dwelling, button, {"feed=1@0.1s", fmt::format("feed=1@{:.4f}s", ended_s + 0.01)});
     expect_stopped(ran, 20, "emergency stop");
@@ -185,7 +185,7 @@ TEST(LatchedStop, AtALimitSwitchKeepsThePositionOnlyOfAxesDeceleratedWithARamp) 
     const StoppedRun one_piece = run_stopped(stop_axes, fast, {"X.limit_plus=0@1s"});
     ASSERT_FALSE(one_piece.outcome.ended);
     EXPECT_TRUE(one_piece.outcome.position_valid) << "the chip brakes within its piece";
-    // The segments of a jerk-limited path last for some milliseconds each; the chip stops at the end of one.
+    // Each segment of a jerk-limited path lasts some milliseconds; the chip stops at the end of a segment.
     const std::string jerk = std::string(stop_axes) + "[controller]\nprofile = \"jerk_limited\"\n";
     for (const char* switches : {"X.limit_plus=0@1s", "Y.limit_plus=0@1s"}) {
         const StoppedRun pieces = run_stopped(jerk, fast, {switches});
@@ -197,7 +197,7 @@ TEST(LatchedStop, AtALimitSwitchKeepsThePositionOnlyOfAxesDeceleratedWithARamp) 
     EXPECT_TRUE(slow.outcome.position_valid) << "1 mm/s is below its velocity step";
 }
 
-/// While the chip decelerates, moves queued behind the line must not change the acceleration.
+/// While the chip decelerates, moves queued after the line must not change the acceleration.
 TEST(LatchedStop, AtALimitSwitchDeceleratesAsTheLimitsOfTheMovingAxisAllow) {
     std::string slow_y = stop_axes;
     slow_y.replace(slow_y.find("channel = \"y\""), 13,
