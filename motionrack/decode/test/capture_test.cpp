@@ -1,4 +1,4 @@
-// Captures as logic analysers write them, and malformed ones: a clear result with its place for each.
+// Captures as logic analysers write them, and malformed ones: each has a clear result or an error with its location.
 #include <gtest/gtest.h>
 
 #include <motionrack/decode/analysis.hpp>
@@ -21,7 +21,7 @@ Result<Analysis> analysed(std::string_view text, const std::string& name, const 
     return analyse(*capture, choices, how);
 }
 
-/// The message of the refusal of `text`, and its place.
+/// Returns the error for a refused `text`, with its location; "not refused" if there is no error.
 std::string refusal(std::string_view text, const std::string& name, const std::vector<std::string>& channels = {},
                     const CaptureSettings& settings = {}) {
     const auto analysis = analysed(text, name, channels, settings);
@@ -258,7 +258,7 @@ TEST(RawCapture, ReportsThePeakVelocityOfItsWindows) {
             file += static_cast<char>((phase & 3U) ^ (phase & 3U) >> 1);
         }
     };
-    run(100'000, 50, 1);  // 20,000 counts/s at 1 MHz; its first count only sets the lines
+    run(100'000, 50, 1);  // 20,000 counts/s at 1 MHz; the first change sets the initial lines
     run(100'000, 10, 3);  // 100,000 counts/s backwards
     run(100'000, 1000, 1);
     AnalysisSettings how;

@@ -1,5 +1,5 @@
-// The vectorised decoder against its referee: every CPU's kernels, every length and alignment, whole and block by
-// block.
+// The vectorised decoder compared with its reference: every CPU's kernels, every length and alignment, the whole stream
+// and block by block.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

@@ -16,7 +16,7 @@ struct Referee {
     std::vector<std::uint64_t> illegal;
     std::vector<IndexEvent> indexes;
 
-    /// One sample; bit numbers as in LineBits.
+    /// Decodes one sample; bit numbers as in LineBits.
     void sample(std::uint8_t byte, const LineBits& lines) {
         // Rows: lines before; columns: lines (B A) now; 2 is illegal.
         static constexpr std::array<int, 16> table = {0, 1, -1, 2, -1, 0, 2, 1, 1, 2, 0, -1, 2, -1, 1, 0};
@@ -36,7 +36,7 @@ struct Referee {
     int before_ = 0, before_z_ = 0;
 };
 
-/// `size` bytes whose bits reverse, stop and jump, each channel independently.
+/// Returns `size` bytes of encoder lines that reverse, stop and jump, each channel independently.
 inline std::vector<std::uint8_t> random_lines(std::uint64_t seed, std::size_t size) {
     std::mt19937_64 random(seed);
     std::vector<std::uint8_t> out(size);
@@ -51,7 +51,7 @@ inline std::vector<std::uint8_t> random_lines(std::uint64_t seed, std::size_t si
         for (std::size_t channel = 0; channel < 4; ++channel) {
             const auto luck = random() % 64;
             if (luck < 20 * kind) phase[channel] += luck % 8 == 0 ? 3 : 1;
-            if (luck == 63) phase[channel] += 2;  // a fault: both lines at once
+            if (luck == 63) phase[channel] += 2;  // a fault: both lines change at once
             const unsigned turn = phase[channel] & 3U, gray = turn ^ turn >> 1;
             byte = static_cast<std::uint8_t>(byte | gray << (2 * channel));
         }
