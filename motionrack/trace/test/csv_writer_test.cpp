@@ -1,4 +1,4 @@
-// The CSV writer: quoting, numbers, heads with units, full disks.
+// The CSV writer: quoting, numbers, column headers with units, full disks.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -64,7 +64,7 @@ struct PlainRecording {
         return writer.close(end);
     }
 
-    /// Expected content: for levels only changes.
+    /// Returns the expected events of a signal; of a level signal only its changes.
     std::vector<std::pair<std::int64_t, std::int64_t>> expected(std::size_t signal) const {
         std::vector<std::pair<std::int64_t, std::int64_t>> out;
         std::int64_t last = head.signals[signal].initial;
@@ -97,7 +97,8 @@ inline std::vector<std::pair<std::int64_t, std::int64_t>> events_of(const Record
     return out;
 }
 
-/// A number of events of all signals, `apart` ticks from one to the next, and a sample every ten events.
+/// Returns a recording of `events` events of all signals, about `apart` ticks from one to the next, with a sample every
+/// ten events.
 inline PlainRecording busy(std::size_t events, std::int64_t apart = 1250) {
     PlainRecording out;
     std::int64_t count[5] = {0, 0, -3, 1, 6400};

@@ -155,7 +155,8 @@ TEST(Recording, ReportsTheErrorOfItsEndAtEachFurtherEnd) {
 
 // ---- truncated
 
-/// Writes until it kills itself, with a flush after every `flush` events and more events after the last flush.
+/// Writes in a child process that kills itself, with a flush after every `flush` events and more events after the last
+/// flush.
 void write_and_die(const PlainRecording& plain, const std::string& path, std::size_t flush) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
@@ -198,7 +199,7 @@ TEST(Recording, OfAKilledProgramHasAllFlushedData) {
 
 // ---- damage
 
-/// Reads all of it; returns whether that succeeded, and a sentence if not.
+/// Reads a whole recording; returns false if it is damaged. Expects a message from a file that cannot be opened.
 bool read_all(const std::string& path) {
     const auto reader = RecordingReader::open(path);
     if (!reader) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// A run of `samples` along a circle of 20 mm by two axes, with a velocity spike at two thirds.
+/// Returns a run of `samples` samples along a circle of 20 mm by two axes, with a velocity spike at two thirds.
 ReportData circle(std::size_t samples) {
     ReportData data;
     data.title = "Circle";

@@ -19,7 +19,8 @@ namespace {
 constexpr int forward = 700;
 constexpr int backward = 300;
 
-/// Step, direction, A and B wires of an axis that moves `forward` steps and `backward` steps back, 10 us each.
+/// Writes the step, direction, A and B wires of an axis that moves `forward` steps and `backward` steps back, 10 us
+/// each.
 void write_moves(const std::string& path, Duration timescale) {
     VcdSettings settings;
     settings.timescale = timescale;

@@ -23,7 +23,7 @@ ReportData corner() {
 
 TEST(SvgPath, FromAboveHasYUpAndDrawsRapidsApart) {
     SvgStyle style;
-    style.width = style.height = 268;  // 100 mm on 200 px
+    style.width = style.height = 268;  // 100 mm become 200 px
     const std::string svg = svg_path(corner(), PathView::plan, style);
     EXPECT_NE(svg.find("<polyline class=\"planned traverse\" points=\"34,234 134,194\"/>"), std::string::npos) << svg;
     EXPECT_NE(svg.find("<polyline class=\"planned\" points=\"134,194 134,74 54,74\"/>"), std::string::npos) << svg;

@@ -162,7 +162,7 @@ TEST(VcdWriter, ReportsThatAFileCannotBeCreated) {
     EXPECT_EQ(writer.error().kind, ErrorKind::io);
 }
 
-/// Changes of one random file: gaps between instants and values.
+/// `changes`: for each change of a random file, a number that determines the gap before it, and its value.
 RC_GTEST_PROP(VcdWriter, TimesAndValuesAreReadBackAsTheyWereWritten,
               (std::vector<std::pair<std::uint32_t, int>> changes)) {
     const Scratch vcd_scratch;
