@@ -25,7 +25,7 @@ inline rack::RackConfig rack_of(const std::string& text) {
     return *reading.config;
 }
 
-/// X, Y and Z without home switches, at the rack file's positions. `more`: further text of the file.
+/// Returns a rack of X, Y and Z without home switches, at the rack file's positions. `more`: further text of the file.
 inline rack::RackConfig three_axes(const std::string& more = "") {
     return rack_of(
         "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = "
@@ -34,7 +34,7 @@ inline rack::RackConfig three_axes(const std::string& more = "") {
         more);
 }
 
-/// X, Y and Z with a probe; `block`: its text in the rack file.
+/// Returns a rack of X, Y and Z with a probe; `block`: its text in the rack file.
 inline rack::RackConfig with_probe(const std::string& block) {
     return rack_of(
         "[card.m]\ntype = \"mcx314\"\nvariant = \"mcx314as\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard "
@@ -47,7 +47,7 @@ inline rack::RackConfig router() {
     return *rack::read_rack_text(*rack::rack_template("router")).config;
 }
 
-/// Number of answered lines in the text.
+/// Returns the number of answers ("ok" or "error:") in the text.
 inline int answers(const std::string& text) {
     std::istringstream in(text);
     int out = 0;
@@ -97,7 +97,7 @@ class Bench {
         pass(seconds);
         return session->take_output();
     }
-    /// The status report.
+    /// Requests and returns the status report.
     std::string report() { return ask("?"); }
     /// Waits for idle, 100 s at most; returns the output meanwhile.
     std::string until_idle() {

@@ -89,7 +89,7 @@ TEST(GrblPort, HoldsAndResumes) {
     Bench b(three_axes());
     b.ask("G1 X100 F3000\n", 0.5);
     EXPECT_THAT(b.ask("!?", 0.004), StartsWith("<Hold:1|"));
-    b.ask("~");  // too early: not at standstill
+    b.ask("~");  // too early: the machine is not at standstill yet
     b.pass(0.5);
     EXPECT_THAT(b.report(), StartsWith("<Hold:0|"));
     const double place = b.axis(0);
@@ -206,7 +206,7 @@ TEST(GrblPort, ChangesOverridesInStepsWithinTheirLimits) {
     b.report(), b.report();
     const auto after = [&](const std::string& bytes) {
         std::string report = b.ask(bytes + "?");
-        if (report.find("Ov:") == std::string::npos) report = b.report();  // the work offset was due
+        if (report.find("Ov:") == std::string::npos) report = b.report();  // that report had the work offset instead
         return report.substr(report.find("Ov:") + 3, report.find('>') - report.find("Ov:") - 3);
     };
     EXPECT_EQ(after("\x91"), "110,100,100");
@@ -226,10 +226,10 @@ TEST(GrblPort, ReportsSpindleAndCoolantWithTheOverrides) {
     EXPECT_EQ(b.ask("M3 S500 M8\n", 0.05), "ok\r\n");
     EXPECT_EQ(b.report(), "<Idle|MPos:0.000,0.000,0.000|FS:0,500|Ov:100,100,100|A:SF>\r\n");
     EXPECT_EQ(b.ask("\x9A\xA1?"), "<Idle|MPos:0.000,0.000,0.000|FS:0,550|Ov:100,100,110|A:SFM>\r\n");
-    EXPECT_EQ(b.ask("\x9E?"), "<Idle|MPos:0.000,0.000,0.000|FS:0,550>\r\n");  // during a hold only
+    EXPECT_EQ(b.ask("\x9E?"), "<Idle|MPos:0.000,0.000,0.000|FS:0,550>\r\n");  // 9Eh acts only during a hold
     EXPECT_EQ(b.ask("!\x9E\xA0?"), "<Hold:0|MPos:0.000,0.000,0.000|FS:0,0|Ov:100,100,110|A:M>\r\n");
     EXPECT_EQ(b.ask("~M4 S2000\n", 0.05), "ok\r\n");
-    EXPECT_THAT(b.report(), HasSubstr("|FS:0,1000|Ov:100,100,110|A:CM>"));  // $30
+    EXPECT_THAT(b.report(), HasSubstr("|FS:0,1000|Ov:100,100,110|A:CM>"));  // limited by $30
     EXPECT_EQ(b.ask("M5 M9\n", 0.05), "ok\r\n");
     EXPECT_THAT(b.report(), HasSubstr("|FS:0,0|Ov:100,100,110>"));
 }

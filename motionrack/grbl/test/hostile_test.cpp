@@ -40,8 +40,8 @@ TEST(GrblPort, SurvivesAnyBytesAndEndsItsMotion) {
     }
 }
 
-/// Lines without a reset, a sleep or a hold are answered once each, however wrong they are. None leads beyond the
-/// travel, where the alarm would be the answer, as in Grbl.
+/// Each line without a reset, a sleep or a hold has one answer, however wrong it is. No line leads beyond the travel,
+/// where the alarm would be the answer, as in Grbl.
 TEST(GrblPort, AnswersEveryLineOnce) {
     const std::uint64_t first = seed_from_environment();
     const std::vector<std::string> words = {"G0",   "G1",     "X1",  "Y3",      "Z.5", "F600", "$$",    "$G",

@@ -73,7 +73,7 @@ std::string some_bytes(std::mt19937& random, std::size_t min_size, std::size_t m
     return out;
 }
 
-/// Random packets with more real-time bytes and lines than chance would give.
+/// Returns a random packet with more real-time bytes and lines than chance would give.
 std::string tempting(std::mt19937& random) {
     std::string out = some_bytes(random, 64, 600);
     const std::vector<std::string> pieces = {"\x18", "!", "~", "?", "\n", "\r\n", "G0X9\n", "$X\n", "\x85", "\x84"};
@@ -99,7 +99,7 @@ std::string first_packet(std::mt19937& random) {
     }
 }
 
-/// MOTIONRACK_PACKETS=N sets their number.
+/// MOTIONRACK_PACKETS=N sets the number of packets.
 TEST(Introduction, PreventsForeignPacketsFromActingOnAMachineThatMoves) {
     std::mt19937 random(static_cast<std::uint32_t>(seed_from_environment()));
     Bench undisturbed(three_axes()), b(three_axes());

@@ -121,7 +121,7 @@ const std::array<Doing, 12> doings = {{
 }};
 constexpr std::size_t doings_without_homing = doings.size() - 1;
 
-/// Number of tested instants of each source in each state.
+/// Returns the number of tested instants for each source of a stop in each state.
 std::uint64_t stop_instants() {
     return trials("MOTIONRACK_STOPS", 3, 100);
 }
@@ -129,7 +129,7 @@ double some_instant(std::mt19937& random) {
     return 0.05 + static_cast<double>(random() % 1000) / 2500;
 }
 
-/// After the stop was reset, a line of the sender moves the machine.
+/// Expects that a line of the sender moves the machine after the stop's reset.
 void expect_to_move(Bench& b) {
     b.machine->programs().set_single_block(false);
     const std::int64_t stood = b.machine->status().axes[0].pulses;
@@ -225,7 +225,7 @@ TEST_P(SenderAtTheButton, HasNoLineExecutedBeforeItsOwnReset) {
 }
 INSTANTIATE_TEST_SUITE_P(By, SenderAtTheButton, testing::Range(std::size_t{0}, doings_without_homing));
 
-/// Bytes of the sender in the slice of the stop.
+/// Parameter: the bytes that the sender sends in the slice of the stop.
 class StoppedHoming : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(AndThen, StoppedHoming, testing::Values("", "!", "$C\n"));
 
