@@ -117,7 +117,7 @@ const sqlite3_io_methods methods = {
     nullptr,
 };
 
-sqlite3_vfs* under = nullptr;  ///< the disk of the system
+sqlite3_vfs* under = nullptr;  ///< the disk interface of the system
 sqlite3_vfs disk;
 
 int on_open(sqlite3_vfs*, const char* path, sqlite3_file* one, int flags, int* out) {

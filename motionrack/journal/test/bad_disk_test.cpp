@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Knowledge of the program about its journal at its end.
+/// State of its journal that the program knows when it ends.
 struct Known {
     struct Acknowledged {
         std::int64_t number = 0;
@@ -52,7 +52,7 @@ class Program {
         });
         answered.get_future().wait();
     }
-    /// With an entry after it, so that the test notices its completion.
+    /// Keeps a value, then writes an entry, whose acknowledgement shows that the value is written.
     void keep(const std::string& value) {
         if (!journal_) return;
         journal_->keep("machine", value);
@@ -132,7 +132,7 @@ class OnABadDisk : public JournalFile, public testing::WithParamInterface<Scenar
     ~OnABadDisk() override {
         for (const char* end : {"", "-journal", "-wal", "-shm", ".lock"}) std::filesystem::remove(state_ + end);
     }
-    /// Every writing call, or a selection by the seed with the last.
+    /// Returns the numbers of all writing calls, or of a selection by the seed and of the last call.
     std::vector<std::int64_t> chosen(std::int64_t calls, std::uint64_t everyday) const {
         std::vector<std::int64_t> out = spread_by_seed(calls, trials("MOTIONRACK_JOURNAL_CALLS", everyday, 100));
         for (std::int64_t& one : out) ++one;
@@ -146,7 +146,8 @@ class OnABadDisk : public JournalFile, public testing::WithParamInterface<Scenar
         GetParam().run(program);
         return disk.calls();
     }
-    /// Checks the file at `path` after `known`. `lies`: the disk reported success for lost writes.
+    /// Checks the file at `path` against `known` after `calls` disk calls. `lies`: the disk reported success for lost
+    /// writes.
     static void check(const std::string& path, const Known& known, std::int64_t calls, bool lies) {
         const Result<std::unique_ptr<Journal>> journal = Journal::open(path);
         if (!journal) {

@@ -17,7 +17,7 @@ using testing::IsEmpty;
 
 class DamagedJournal : public JournalFile {
   protected:
-    /// A run with a regular end, three entries and the machine positions.
+    /// Makes the journal of one run with three entries, the machine positions and a regular end.
     void make() {
         remove();
         auto journal = open();
@@ -29,7 +29,7 @@ class DamagedJournal : public JournalFile {
         std::ifstream in(path, std::ios::binary);
         return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     }
-    /// Result of the next run.
+    /// Opens the journal in a next run and returns its finding about the last run.
     LastRun next() const {
         auto journal = open();
         return journal && journal->before() ? *journal->before() : LastRun{};

@@ -41,7 +41,7 @@ class JournalFile : public testing::Test {
         EXPECT_TRUE(journal) << journal.error().message;
         return journal ? std::move(*journal) : nullptr;
     }
-    /// Writes an entry and waits until it is on disk.
+    /// Writes an entry, waits until it is on the disk and returns its number; -1: refused.
     static std::int64_t write(Journal& journal, std::string kind, std::string text) {
         std::promise<std::int64_t> number;
         journal.write(Instant{7}, std::move(kind), std::move(text), "{}",

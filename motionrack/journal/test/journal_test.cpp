@@ -114,7 +114,7 @@ TEST_F(JournalFile, OfAnotherUserKeepsItsRights) {
               fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read | fs::perms::others_read);
 }
 
-/// SQLite reads paths of 512 bytes at most.
+/// SQLite accepts paths of 512 bytes at most.
 TEST_F(JournalFile, WithAPathThatIsTooLongIsRefused) {
     const fs::path top = path_ + ".folder";
     const fs::path folder = top / std::string(250, 'a') / std::string(250, 'b');
