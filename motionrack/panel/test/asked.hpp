@@ -38,7 +38,7 @@ inline rack::RackConfig config_of(const std::string& text) {
 inline rack::RackConfig demonstration() {
     return config_of(text_of_file("examples/15_panel/demonstration.toml"));
 }
-/// Two axes without switches at the rack file's positions.
+/// Returns a rack of two axes without switches, at the rack file's positions.
 inline rack::RackConfig two_axes() {
     return config_of(
         "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = "
@@ -73,7 +73,7 @@ class Asked {
             std::find_if(orders_.begin(), orders_.end(), [&](const Timed& one) { return one.seconds > seconds; });
         orders_.insert(later, {seconds, std::move(work)});
     }
-    /// A command that must be accepted; anna holds control.
+    /// Sends a command of anna, who holds control, and expects that it is accepted.
     void good(double seconds, const std::string& name, json fields = json::object()) {
         at(seconds, anna, name, std::move(fields),
            [name](const Answer& answer) { EXPECT_EQ(answer.status, 200) << name << ": " << answer.body.dump(); });
@@ -93,7 +93,7 @@ class Asked {
     }
     double x() const { return machine->status().axes[0].commanded; }
 
-    /// Its clock stands still, so that control does not expire on a busy computer.
+    /// The clock of the lease stands still, so that control does not expire on a busy computer.
     auth::ControlLease lease{[] { return auth::Moment{}; }};
     std::optional<test::MachineWatch> watch;  ///< the laws of every run, to the machine's last slice
     std::unique_ptr<operate::Machine> machine;

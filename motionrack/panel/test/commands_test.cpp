@@ -212,7 +212,7 @@ TEST(ManualCardAccess, AnIoflex02IsCalibratedWhileItsAxisMoves) {
                   "[card.glass]\ntype = \"ioflex02\"\nbase_address = 0x2300\npreloaded = true\n"
                   "[wires]\n\"glass.a0\" = \"X.enc_a\"\n\"glass.b0\" = \"X.enc_b\"\n"));
     const auto position = [&] { return a.machine->rack().card("glass")->inspect("0.POSITION").value_or(-1); };
-    // CMD: cRes for axis 0; the others keep what they wait for.
+    // Register CMD: cRes (position 0 at once) for axis 0; the pending calibrations of the other axes continue.
     const json zeroed = {{"card", "glass"}, {"bits", 16}, {"address", 0x2312}, {"value", 0x0E01}};
     std::int64_t before = 0, after = 0, later = 0;
     a.good(0.1, "take_control");
@@ -223,7 +223,7 @@ TEST(ManualCardAccess, AnIoflex02IsCalibratedWhileItsAxisMoves) {
     a.at(1.7, [&] { after = position(); });
     a.at(2.2, [&] { later = position(); });
     a.run(5);
-    // 10 mm/s of 800 counts a millimetre.
+    // 10 mm/s at 800 counts per mm: 8000 counts/s.
     EXPECT_GT(before, 4'000);
     EXPECT_GT(after, 0);
     EXPECT_LT(after, 1'700) << "it counts from 0 again";
@@ -272,7 +272,7 @@ TEST(Fuzzer, FindsNothingInItsSeeds) {
     EXPECT_GT(seeds, 4);
 }
 
-/// Any JSON, three levels deep at most.
+/// Generates any JSON, three levels deep at most.
 rc::Gen<json> any_json(int depth = 3) {
     const auto leaf =
         rc::gen::oneOf(rc::gen::map(rc::gen::arbitrary<double>(), [](double v) { return json(v); }),
@@ -293,7 +293,7 @@ struct Question {
     json fields;
 };
 
-/// A request of a client without control.
+/// Returns a random request of a client without control.
 Question any_question() {
     std::vector<const OperationSpec*> rows;
     for (const auto table : {commands(), queries()})

@@ -54,7 +54,7 @@ TEST(CommandAnswer, IsAnsweredOnceTheJournalHasIt) {
     EXPECT_TRUE(seen);
 }
 
-/// Alarm text in the machine's status; empty: none.
+/// Returns the journal's active alarm text in the machine's status; empty: none.
 std::string alarm_of(const Asked& a) {
     std::string out;
     for (const operate::Alarm& alarm : a.machine->status().alarms)

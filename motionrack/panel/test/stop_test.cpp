@@ -98,7 +98,7 @@ TEST_P(StopOnThePage, RejectsMarkingAndStartingPartsBeforeAReset) {
     EXPECT_FALSE(started.belt_waits || started.mask_waits);
 }
 
-/// The demonstration with a door.
+/// Returns the rack of the demonstration with a door.
 rack::RackConfig with_door() {
     return config_of(text_of_file("examples/15_panel/demonstration.toml") + "\n[safety]\ndoor = true\n");
 }
@@ -143,7 +143,7 @@ TEST(DoorOnThePage, DisablesTheLaserAndStopsBeltsAndStagesUntilItIsClosed) {
     EXPECT_EQ(later_mm, marked_mm);
 }
 
-/// Something that ends a mark command while its list is made.
+/// A command that ends a mark command while the panel builds its list.
 struct EndOfMarking {
     const char* name;
     const char* command;
