@@ -1,4 +1,4 @@
-// The list of alarms: how many there are, which ones replace others, and what ends them.
+// The list of alarms: its size, alarms that replace others, and the ends of alarms.
 #include <gmock/gmock.h>
 
 #include <motionrack/operate/alarm_list.hpp>

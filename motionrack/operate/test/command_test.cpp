@@ -1,4 +1,4 @@
-// Commands of a machine: numbers that are none, queues that are full, and starts that are forbidden for good.
+// Commands of a machine: invalid numbers, full queues, and starts that are permanently forbidden.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -245,7 +245,7 @@ TEST(Machine, EndsWhileItsTimeStandsStill) {
     EXPECT_TRUE(machine->status().ended);
 }
 
-/// All axes of a router at their true positions.
+/// Sets the positions of all axes to their true positions.
 void set_true_positions(Machine& m) {
     for (const AxisStatus& axis : m.status().axes)
         EXPECT_TRUE(m.manual().set_position(axis.letter, axis.true_position));

@@ -11,13 +11,13 @@ namespace {
 using FirstJog = Result<void> (*)(Machine&, double distance);
 
 struct Succession {
-    double moved_idle = 0;  ///< mm, while the machine says that it stands
+    double moved_idle = 0;  ///< mm moved while the machine reports that it is idle
     MachineState state = MachineState::disabled;
 };
 
 Succession jog_after(const rack::RackConfig& config, FirstJog first, double distance, double then_s) {
     MachineSettings settings;
-    settings.slice = microseconds(100);  // commands also arrive while an axis is handed over
+    settings.slice = microseconds(100);  // short: commands also arrive while a jog ends
     Operated o(config, std::move(settings));
     Succession seen;
     o.at(0.05, [](Machine& m) {
@@ -45,7 +45,7 @@ void expect_never_called_standstill(const rack::RackConfig& config, FirstJog fir
     for (double at = ends_from_s; at < ends_to_s; at += 0.0001) {
         SCOPED_TRACE(testing::Message() << "the next jog at " << at << " s");
         const Succession seen = jog_after(config, first, 0.3, at);
-        EXPECT_LT(seen.moved_idle, 0.05);  // a servo settles
+        EXPECT_LT(seen.moved_idle, 0.05);  // mm: a servo still settles
         EXPECT_EQ(seen.state, MachineState::standstill);
     }
 }

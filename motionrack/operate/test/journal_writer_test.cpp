@@ -290,7 +290,7 @@ TEST_F(JournalWriterTest, RecordsThePositionOfAnAxisPushedAtStandstill) {
     EXPECT_DOUBLE_EQ(kept[0].commanded, 1.57);
 }
 
-/// A servo behind a card that hangs drifts on; its last position is not that of the last period.
+/// A servo whose card hangs drifts on, so its position at the end of the run differs from the last periodic one.
 TEST_F(JournalWriterTest, RecordsThePositionOfEachAxisAtTheEndOfTheRun) {
     open();
     Status status;

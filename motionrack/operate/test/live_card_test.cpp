@@ -221,7 +221,7 @@ TEST(RealCard, WithARejectedAccessInServiceRaisesALatchedAlarm) {
                                           HasSubstr("press the emergency stop")));
 }
 
-/// Its file is cut, and another card stands in its place when its port is opened again.
+/// The card's file is truncated; when the service opens the port again, another card answers there.
 TEST(RealCard, StoppedThroughItsPortOpenedAgainRaisesAnAlarmThatAResetEnds) {
     CardFile file("/dev/zero");
     const fs::path memory = file.memory('\0');
@@ -248,7 +248,7 @@ TEST(RealCard, StoppedThroughItsPortOpenedAgainRaisesAnAlarmThatAResetEnds) {
     EXPECT_FALSE(o.alarms()[0].active);
 }
 
-/// An exception that leaves the loop of the machine, as one of a failed allocation.
+/// An exception leaves the loop of the machine, as after a failed allocation.
 TEST(RealCard, IsStoppedWhereAnExceptionEndsTheMachine) {
     CardFile file("/dev/zero");
     const fs::path memory = file.memory('\0');
@@ -263,8 +263,8 @@ TEST(RealCard, IsStoppedWhereAnExceptionEndsTheMachine) {
     EXPECT_EQ(text_of(memory).substr(0, 2), "\x27\x0F") << "the quick stop of all axes";
 }
 
-/// A slot from which the card is taken at 0.2 s. A file keeps what is written, as a slot does not, so it is filled anew
-/// before the next service.
+/// Expects the alarm of a card that is removed from its slot at 0.2 s. A file keeps written words, unlike an empty
+/// slot, so it is filled again before the next service.
 void expect_the_alarm_of_an_empty_slot(double call_at, const std::string& function, const CallArguments& arguments) {
     CardFile file("/dev/zero");
     file.points_to(file.memory('\0'));

@@ -15,7 +15,7 @@ std::string write_16(Machine& m, const char* card, std::uint32_t address, std::u
     return refusal_of(m.manual_access().request({card, 16, address, value}, [](const auto&) {}));
 }
 
-/// Writes what makes the X axis of an MCX314 drive in + direction until it is stopped.
+/// Writes the registers that make the X axis of an MCX314 drive in + direction until it is stopped.
 void drive_x(Machine& m) {
     constexpr std::uint32_t x = 1 << 8, wr0 = 0, wr6 = 12, wr7 = 14;
     struct Write {
@@ -119,7 +119,7 @@ TEST(ManualAccess, WritesToNoCardThatMovesWhileTheDoorIsOpen) {
     o.run(0.2);
 }
 
-/// Everything that ends motion which register writes have started at standstill.
+/// A cause that ends the motion that register writes have started at standstill.
 struct EndOfMotion {
     const char* name;
     void (*give)(Machine& m);

@@ -13,7 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A machine, and what it says of the services of its card.
+/// A machine, and the answers to requests for its card's services.
 struct ServiceTalk : Operated {
     ServiceTalk() : Operated(two_axes()) {}
     void begin(Machine& m) {
@@ -31,7 +31,7 @@ struct ServiceTalk : Operated {
     std::vector<std::string> said;
 };
 
-/// A library whose axes stand after some looks, on a host that only counts time.
+/// A library whose axes are at standstill after `moves_for` polls, on a host whose time advances only by waiting.
 struct SlowCard final : FunctionLibrary, Interrupt {
     std::span<const FunctionInfo> functions() const override { return {}; }
     Result<void> begin() override { return {}; }
@@ -121,7 +121,7 @@ TEST(ServiceOrder, ProgramsCanBeStoppedAfterAService) {
         }
 }
 
-/// The card is reset at its start, and does not answer meanwhile.
+/// The start of the service resets the card, which does not answer meanwhile.
 TEST(ServiceOrder, AStopAtAnyInstantOfTheStartEndsTheService) {
     for (const double delay : {0.0005, 0.002, 0.01, 0.05, 0.2}) {
         SCOPED_TRACE(delay);

@@ -1,5 +1,5 @@
-// A served servo, whose card counts its encoder: what it knows of its place, and what of that is left when something
-// breaks.
+// A servo of an operated machine, whose card counts its encoder: its position, and the validity of the position after
+// faults.
 #include <gmock/gmock.h>
 
 #include <motionrack/rack/faults.hpp>
@@ -125,7 +125,8 @@ TEST(OperatedServoAxis, LosesItsPositionWhereItsCardIsRestartedInAnErrorStop) {
     EXPECT_EQ(o.machine->status().alarms[1].axis, 'X');
 }
 
-/// The host waits for the card, then for its position, before the line has failed; lines are taken all the while.
+/// The host waits for the card, then for its position, before the line fails; the machine accepts further lines
+/// meanwhile.
 TEST(OperatedServoAxis, IsUsableAfterLinesAndHoldsDuringAHangOfItsCard) {
     for (const double hangs_at : {0.15, 0.3, 0.33, 0.4}) {
         Operated o(carriage());
@@ -221,7 +222,7 @@ TEST(OperatedServoAxis, HasAValidPositionAlsoIfItIsPushedAllTheTime) {
     EXPECT_NEAR(axis.commanded, 100 + axis.true_position - stood, 0.5);
 }
 
-/// Its watchdog does not reset it then, so that it drives on by its last commands.
+/// The watchdog does not restart a card after so short a hang, so the servo continues with its last commands.
 TEST(OperatedServoAxis, StaysAtStandstillIfItsCardHangsForLessThanASecond) {
     struct Motion {
         const char* name;

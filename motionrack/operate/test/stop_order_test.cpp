@@ -1,4 +1,4 @@
-// Commands that meet in one slice: whatever was acknowledged first takes effect first.
+// Commands that meet in one slice: the command that was acknowledged first takes effect first.
 #include <gmock/gmock.h>
 
 #include "operated.hpp"

@@ -283,7 +283,7 @@ INSTANTIATE_TEST_SUITE_P(EveryState, StopInAState, testing::ValuesIn(all_cases()
     return std::string(std::get<0>(each.param).name) + "_by_" + std::string(std::get<1>(each.param).name);
 });
 
-/// Servo-on and brakes may hang on them.
+/// Servo enables and brakes may be connected to these outputs.
 TEST(GeneralOutputs, GoLowAtAnEmergencyStopAndKeepTheirLevelsAtAllOtherStops) {
     for (const Source& source : sources) {
         SCOPED_TRACE(source.name);
