@@ -3,7 +3,7 @@
 // checked to give the same pulses in the same ticks.
 //
 //  chip       command ─► ramp ─► cruise ─► ramp          a few hundred events; with an edge listener,
-//                                                         one batch for each 2,048 of them
+//                                                         one batch for each 2,048 edges
 //   verilator  clock 0 1 0 1 0 1 0 1 0 1 0 1 0 1 ...      10 million clocks of 125 ns for the same 4.5 million pulses
 #include <benchmark/benchmark.h>
 
@@ -48,8 +48,8 @@ void count_pulses(benchmark::State& state, const Move& move, std::int64_t made) 
 
 // ---- the virtual chip
 
-/// One drive after the other; the host polls every 10 ms. `heard`: the instant of every pulse is computed and
-/// delivered.
+/// Executes one drive after the other; the host polls every 10 ms. `heard`: the chip computes the instant of every
+/// pulse and delivers it to a listener.
 void drive(benchmark::State& state, const Move& move, bool heard) {
     Stage stage(false);
     Pulses pulses;

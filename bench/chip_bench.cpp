@@ -15,7 +15,7 @@ void count_time(benchmark::State& state, double seconds, double pulses) {
 
 // ---- cruising: four axes at 4 Mpps, without edge listeners
 
-/// The host polls every `slice`.
+/// All axes cruise; the host polls every `slice`.
 void cruise(benchmark::State& state, Duration slice, bool machines) {
     Stage stage(machines);
     set_speeds(stage.host, {});
@@ -89,7 +89,7 @@ BENCHMARK_CAPTURE(moves_twin, stepper, stepper);
 BENCHMARK_CAPTURE(moves, stepper_s, stepper_s, false);
 BENCHMARK_CAPTURE(moves_twin, stepper_s, stepper_s);
 
-/// One axis that only ramps.
+/// Executes a drive of one axis that accelerates and decelerates throughout; returns its number of kernel events.
 std::uint64_t ramps(Stage& stage, bool plus) {
     const std::uint64_t before = stage.host.kernel.events();
     drive_fixed(stage.host, 50'000, plus, 1);
@@ -97,7 +97,8 @@ std::uint64_t ramps(Stage& stage, bool plus) {
     return stage.host.kernel.events() - before;
 }
 
-/// Cost of a velocity step: a separate event with a machine, which is notified; a step of a loop without.
+/// Cost of a velocity step. With a machine it is a kernel event that notifies the machine; without, an iteration of a
+/// loop.
 void speed_steps(benchmark::State& state, bool s_curve, bool machines) {
     Stage stage(machines), heard(true);
     for (Stage* each : {&stage, &heard}) {
@@ -163,7 +164,7 @@ BENCHMARK_CAPTURE(edges_one_by_one, 20_kpps, at_20_kpps);
 BENCHMARK_CAPTURE(edges_one_by_one, 100_kpps, at_100_kpps);
 BENCHMARK_CAPTURE(edges_one_by_one, 4_Mpps, at_4_mpps);
 
-/// The decoders alone, on prepared edges.
+/// Runs only a decoder, on prepared edges.
 template <class Decoder>
 void decode_only(benchmark::State& state) {
     Decoder decoder;
@@ -183,7 +184,7 @@ void decode_only(benchmark::State& state) {
 BENCHMARK_TEMPLATE(decode_only, sim::BatchDecoder);
 BENCHMARK_TEMPLATE(decode_only, OneByOne);
 
-/// Interpolations in sequence, at 4 Mpps, with every edge decoded.
+/// Executes interpolations in sequence, at 4 Mpps, and decodes every edge.
 template <class Start>
 void path_edges(benchmark::State& state, const Start& start) {
     Stage stage(true);

@@ -21,8 +21,8 @@ struct Speeds {
     std::int64_t range = 16'000, start = 8'000, speed = 8'000, accel = 400, jerk = 100;
 };
 
-/// Writes them to the axes of `mask`; A, D and K differ slightly per axis, so that the velocities step at different
-/// ticks.
+/// Writes the parameters to the axes of `mask`; A, D and K differ slightly per axis, so that the velocities step at
+/// different ticks.
 template <class Host>
 void set_speeds(Host& host, const Speeds& speeds, unsigned mask = all_axes) {
     for (unsigned i = 0; i < 4; ++i) {
@@ -38,7 +38,7 @@ void set_speeds(Host& host, const Speeds& speeds, unsigned mask = all_axes) {
     }
 }
 
-/// Fixed drives of `pulses` by the axes of `mask`; `plus`: direction.
+/// Starts fixed drives of `pulses` by the axes of `mask`; `plus`: direction.
 template <class Host>
 void drive_fixed(Host& host, std::int64_t pulses, bool plus, unsigned mask = all_axes) {
     host.data(mask, 0x06, pulses);
@@ -63,7 +63,7 @@ void prepare(Host& host, const Move& move, unsigned mask = all_axes) {
     host.mode(mask, 3, move.s_curve ? 0x0004u : 0u);
 }
 
-/// Motors that follow any pulses, with one encoder count per pulse.
+/// Returns settings of a motor that follows any pulses, with one encoder count per pulse.
 inline parts::AxisMechanicsSettings machine_settings() {
     parts::AxisMechanicsSettings settings;
     settings.motor.start_stop_hz = settings.motor.pull_out_hz = 1e8;

@@ -30,7 +30,7 @@ Move feed_to(const Point& end) {
     return move;
 }
 
-/// Short lines on a smooth curve, as written by a CAM system; rounded to `grid` mm.
+/// Returns short lines on a smooth curve, as a CAM system writes them; rounded to `grid` mm.
 std::vector<Move> chords(double step, double grid) {
     std::vector<Move> moves;
     Point at = {};
@@ -54,7 +54,7 @@ std::vector<Move> long_lines() {
     return moves;
 }
 
-/// Quarter circles, left and right, tangent to each other.
+/// Returns quarter circles, left and right, tangent to each other.
 std::vector<Move> arcs(double radius) {
     std::vector<Move> moves;
     for (int i = 0; i < 20'000; ++i) {
@@ -70,7 +70,7 @@ std::vector<Move> arcs(double radius) {
     return moves;
 }
 
-/// Each block with a different feed rate, so that none are merged.
+/// Returns blocks with different feed rates, so that the path builder merges none.
 std::vector<Move> inverse_time(double step) {
     std::vector<Move> moves = chords(step, 0);
     for (std::size_t i = 0; i < moves.size(); ++i) {
@@ -110,7 +110,7 @@ BENCHMARK_CAPTURE(curve, long_lines, long_lines());
 BENCHMARK_CAPTURE(curve, arcs_of_1_mm, arcs(1));
 BENCHMARK_CAPTURE(curve, arcs_of_20_mm, arcs(20));
 
-/// Path and velocity of the whole program, repeatedly.
+/// Plans path and velocity of the whole program, repeatedly.
 void trajectory(benchmark::State& state, const std::vector<Move>& moves) {
     double cells = 0;
     for (auto _ : state) {
@@ -130,7 +130,8 @@ BENCHMARK_CAPTURE(trajectory, chords_of_0_1_mm_rounded, chords(0.1, 0.001));
 BENCHMARK_CAPTURE(trajectory, long_lines, long_lines());
 BENCHMARK_CAPTURE(trajectory, arcs_of_1_mm, arcs(1));
 
-/// Block by block with a limited window, executed when it is full; in the slowest blocks thousands are planned.
+/// Pushes block by block into a limited window and executes motion while it is full. The slowest pushes plan thousands
+/// of blocks.
 void generator(benchmark::State& state, const std::vector<Move>& moves) {
     using Clock = std::chrono::steady_clock;
     std::vector<double> seconds;

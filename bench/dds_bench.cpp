@@ -28,7 +28,7 @@ constexpr const char* loopback =
     "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
     "<Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain>";
 
-/// Frame `number`, which carries its send time in its first two counts.
+/// Fills frame `number`, which carries its send time in its first two counts.
 void stamp(Frame& frame, std::uint32_t number, Duration period, std::uint32_t scales) {
     frame.sequence = number;
     frame.time = std::int64_t{number} * period.count();
@@ -85,7 +85,7 @@ double percentile(const std::vector<double>& sorted, double part) {
                                             static_cast<std::size_t>(part * static_cast<double>(sorted.size())))];
 }
 
-/// Receives `frames` frames; records their ages in us and counts lost ones. Returns false if none arrive.
+/// Receives `frames` valid frames and records their ages in us. Returns false if no frame arrives for 10 s.
 bool hear(dds::Subscriber& subscriber, std::size_t frames, std::vector<double>& ages) {
     while (ages.size() < frames) {
         if (!subscriber.wait(whole_seconds(10))) return false;
@@ -139,7 +139,7 @@ BENCHMARK(network)
     ->MinTime(3)
     ->Unit(benchmark::kMillisecond);
 
-/// Including the CRC.
+/// Validates frames, including their CRC.
 void judging(benchmark::State& state) {
     dds::FrameValidator judge;
     dds::Sample sample;

@@ -16,7 +16,7 @@ namespace {
 using namespace motionrack::decode;
 using Clock = std::chrono::steady_clock;
 
-/// Four encoders that turn back and forth, one count every few samples.
+/// Returns samples of four encoders that turn back and forth, one count every few samples.
 std::vector<std::uint8_t> make_stream(std::size_t size) {
     std::mt19937 random(4);
     std::vector<std::uint8_t> out(size);
@@ -33,7 +33,8 @@ std::vector<std::uint8_t> make_stream(std::size_t size) {
     return out;
 }
 
-/// Created once per size, because a benchmark is called repeatedly until its time is known.
+/// Returns the samples of a size; they are created once, because a benchmark is called repeatedly until its time is
+/// known.
 const std::vector<std::uint8_t>& stream_of(std::size_t size) {
     static std::map<std::size_t, std::vector<std::uint8_t>> streams;
     const auto [at, added] = streams.try_emplace(size);
@@ -41,7 +42,7 @@ const std::vector<std::uint8_t>& stream_of(std::size_t size) {
     return at->second;
 }
 
-/// One axis, one sample per byte.
+/// Baseline: one axis, one sample per byte, through a table of 16 transitions.
 std::int64_t by_table_of_16(const std::vector<std::uint8_t>& stream) {
     static constexpr std::array<std::int8_t, 16> table = {0, 1, -1, 0, -1, 0, 0, 1, 1, 0, 0, -1, 0, -1, 1, 0};
     std::int64_t count = 0;
@@ -54,7 +55,7 @@ std::int64_t by_table_of_16(const std::vector<std::uint8_t>& stream) {
     return count;
 }
 
-/// Four axes: the previous and the current byte select four counts, each plus 1, in the bytes of a number.
+/// Baseline for four axes: the previous and the current byte select four counts, each plus 1, in the bytes of a number.
 class TableOf64K {
   public:
     TableOf64K() : table_(1 << 16) {
@@ -83,7 +84,7 @@ class TableOf64K {
     std::vector<std::uint32_t> table_;
 };
 
-/// Seconds that `work` takes: the minimum of many tries, so that other load does not slow the baseline.
+/// Returns the seconds that `work` takes: the minimum of many tries, so that other load does not slow the baseline.
 template <class Work>
 double seconds_of(const Work& work) {
     double best = 1e9;

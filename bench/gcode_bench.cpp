@@ -22,7 +22,7 @@ gcode::Settings machine() {
     return settings;
 }
 
-/// 200,000 lines; the numbers come from a fixed linear congruential generator.
+/// A program of 200,000 lines, with numbers from a fixed linear congruential generator.
 struct Program {
     std::string text;
     std::int64_t lines = 0;

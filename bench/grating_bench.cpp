@@ -33,7 +33,7 @@ class Clocked {
         context_.threads(1);
         system_ = std::make_unique<VGrating>(&context_);
     }
-    /// Counts the clocks at which all cards had their frame at once.
+    /// Simulates `clocks` clocks; counts those at which all cards complete a frame together.
     void run(int clocks) {
         for (int i = 0; i < clocks; ++i) {
             system_->clock = 1;
@@ -44,8 +44,8 @@ class Clocked {
         }
     }
     std::int64_t frames() const { return frames_; }
-    /// Claims the last frame; checks that all cards hold the same one, of that time in clocks, with scale 0 at its
-    /// expected count.
+    /// Claims the last frame. Returns true if all cards hold the same frame, its time is `clock` clocks, scale 0 is at
+    /// its expected count, and no line has a conflict.
     bool holds_frame_of(std::int64_t clock) {
         system_->claim = 1;
         run(1);
@@ -85,7 +85,7 @@ void frames_clocked(benchmark::State& state) {
 }
 BENCHMARK(frames_clocked);
 
-/// Frames per second: the maximum of many tries, so that other load does not slow the baseline.
+/// Returns frames per second: the maximum of many tries, so that other load does not slow the baseline.
 double clocked_rate() {
     static const double rate = [] {
         Clocked clocked;
@@ -113,7 +113,7 @@ void count_ratio(benchmark::State&, double) {}
 
 // ---- the virtual cards
 
-/// Cards without wire listeners unless `wires_watched`; `claims`: each processor claims and validates each frame.
+/// Runs cards without wire listeners unless `wires_watched`; `claims`: each processor claims and validates each frame.
 void frames_of_cards(benchmark::State& state, bool wires_watched, bool claims) {
     sim::Kernel kernel;
     Bus bus(kernel);

@@ -33,7 +33,7 @@ void count(benchmark::State& state, const char* what, double all, double seconds
     state.counters["sim_s/s"] = Counter(seconds, Counter::kIsRate);
 }
 
-/// The given number of axes of one card, with machines, make the stepper's move together.
+/// Drives the given number of axes of one card, each with a machine, through the stepper's move together.
 void axes(benchmark::State& state) {
     const unsigned mask = (1u << state.range(0)) - 1;
     Stage stage(true);
@@ -53,7 +53,7 @@ void axes(benchmark::State& state) {
 }
 BENCHMARK(axes)->DenseRange(1, 4);
 
-/// All four axes of the given number of cards in one kernel make the same move.
+/// Drives all four axes of the given number of cards in one kernel through the same move.
 void cards(benchmark::State& state) {
     sim::Kernel kernel;
     std::vector<std::unique_ptr<Card>> all;
@@ -77,8 +77,8 @@ void cards(benchmark::State& state) {
 }
 BENCHMARK(cards)->Arg(1)->Arg(2)->Arg(4)->Arg(8)->Arg(16)->Arg(32);
 
-/// Frames of a grating bus with the given numbers of slaves and scales, without observers; `each` is one frame of one
-/// card.
+/// Runs a grating bus with the given numbers of slaves and scales, without observers; `each` is the time per frame of
+/// one card.
 void frames(benchmark::State& state) {
     const auto slaves = static_cast<int>(state.range(0)), scales = static_cast<int>(state.range(1));
     grating_bus::Crate crate(grating_bus::crew(slaves, scales), scales, {}, false);

@@ -20,7 +20,7 @@ std::string text_of(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// 20,000 lines of 0.3 mm in continuous path mode, along a spiral of varying radius.
+/// Returns 20,000 lines of 0.3 mm in continuous path mode, along a spiral of varying radius.
 std::string short_lines() {
     std::string text = "G21 G90 G64 P0.02\nG0 X150 Y100\nG1 F3000\n";
     char line[64];

@@ -19,10 +19,10 @@ struct Task {
     double distance, velocity, accel, jerk, entry, exit;
 };
 
-/// Enough that the branch predictor cannot learn them.
+/// Number of tasks; the branch predictor cannot learn so many.
 constexpr std::size_t task_count = 1 << 14;
 
-/// Moves of all cases: with and without reaching the velocity and acceleration limits.
+/// Returns moves of all cases: with and without reaching the velocity and acceleration limits.
 std::vector<Task> tasks() {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> part(0, 1);
@@ -165,7 +165,7 @@ MachineLimits machine() {
     return limits;
 }
 
-/// A smooth curve of short lines, as written by a CAM system.
+/// Returns a smooth curve of short lines, as a CAM system writes it.
 std::vector<Move> curve(int count, double step) {
     std::vector<Move> moves;
     Point at{};

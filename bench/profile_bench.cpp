@@ -18,7 +18,7 @@ struct Task {
     KinematicLimits limits;
 };
 
-/// Random tasks: limits within an order of magnitude, velocities up to `moving` of the limit.
+/// Returns random tasks: limits within an order of magnitude, velocities up to `moving` of the limit.
 std::vector<Task> tasks(double moving) {
     std::mt19937_64 random(20261122);
     const auto between = [&](double min, double max) {
@@ -31,7 +31,7 @@ std::vector<Task> tasks(double moving) {
         t.limits.jerk = between(4e3, 4e4);
         for (KinematicState* state : {&t.from, &t.to}) {
             state->position = between(-100, 100);
-            // limits acceleration so that half of the velocity remains
+            // bounds the acceleration so that bringing it to 0 changes the velocity by at most half of its limit
             const double max_accel = std::fmin(t.limits.accel, std::sqrt(t.limits.velocity * t.limits.jerk));
             state->accel = moving * between(-max_accel, max_accel);
             const double room = t.limits.velocity - 0.5 * state->accel * state->accel / t.limits.jerk;
@@ -72,7 +72,7 @@ void travel_between_any_states(benchmark::State& state) {
 }
 BENCHMARK(travel_between_any_states);
 
-/// Near targets: no cruise phase, so that nearly each requires solving an equation.
+/// Near targets: nearly every profile has no cruise phase and requires solving an equation.
 void travel_between_any_states_near(benchmark::State& state) {
     auto work = tasks(1);
     for (Task& t : work) t.to.position = t.from.position + 0.02 * (t.to.position - t.from.position);

@@ -32,7 +32,7 @@ trace::RecordingHead head() {
 
 constexpr std::int64_t events = 1'000'000;
 
-/// Pulses and counts of an axis with varying velocity, as in a job.
+/// Writes pulses and counts of an axis with varying velocity, as in a job.
 Result<void> write(const std::string& path) {
     MOTIONRACK_TRY(trace::RecordingWriter writer, trace::RecordingWriter::create(path, head(), Instant{0}));
     std::int64_t at = 0, apart = 100'000;
@@ -72,7 +72,7 @@ void compare_events(benchmark::State& state) {
 }
 BENCHMARK(compare_events)->Unit(benchmark::kMillisecond);
 
-/// The example part on the router; 0: no recording, 1: VCD, 2: HDF5.
+/// Runs the example part on the router; 0: no recording, 1: VCD, 2: HDF5.
 void run_example_part(benchmark::State& state) {
     std::ifstream file(std::string(MOTIONRACK_SOURCE_DIR) + "/examples/02_part/part.ngc", std::ios::binary);
     rack::JobRequest request;

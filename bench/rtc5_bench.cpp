@@ -13,7 +13,7 @@ using namespace motionrack::rtc5;
 
 constexpr std::int64_t list_size = 4000;
 
-/// Keeps the compiler from removing the samples.
+/// Sums the samples, so that the compiler does not remove their computation.
 class Last final : public Sink {
   public:
     void samples(const Samples& b) override {
@@ -32,7 +32,7 @@ const CorrectionFile& lens_file() {
 enum class Work { micro_vectors, short_marks, long_marks };
 enum class Correction { none, encoder, rotary };
 
-/// Equal lists 1 and 2; in a loop they run indefinitely.
+/// Returns the commands of lists 1 and 2, which are equal; executed in turn, they run indefinitely.
 std::vector<Command> list_of(Work work, Correction correction) {
     std::vector<Command> out;
     const auto put = [&](Op op, std::initializer_list<double> p) { out.push_back(*list_command(op, p)); };
