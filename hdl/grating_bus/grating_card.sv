@@ -1,59 +1,60 @@
-// The logic of one motion card on a grating bus: the sequence S0 .. S12 as host or slave, its checks and counters, two
-// buffers of frames with their CRC-32. One clock, all times in its periods; 100 MHz gives the source's T1 to T3.
+// The logic of one motion card on a grating bus: the sequence S0 .. S12 as host or slave, its checks and counters, and
+// two frame buffers with their CRC-32. It has one clock, and all times are in periods of it; at 100 MHz the defaults
+// of T1 to T3 are those of the source.
 //
-//   edge of clk   a clock after clk has risen at the card it enters S1, host and slaves together
+//   edge of clk   one clock after clk has risen at the card, the card enters S1: host and slaves together
 //   own clk       __/~~~~~~~~~~~~~
 //   hold          ________/~~~~~~~
 //
-// The rules are those of motionrack/cards/grating_bus/RULES.md. Not in it: the mark of stale data, and the counters of
-// lost and missed edges.
+// The rules are those of motionrack/cards/grating_bus/RULES.md. The mark of stale data and the counters of lost and
+// missed edges are not implemented.
 `timescale 1ns / 1ns
 
 module grating_card #(
-    parameter N      = 4,            // scales of a frame, 1 .. 128
-    parameter FIRST  = 0,            // address of the first one, without a list
-    parameter LISTED = 0,            // 1: LIST is the list of addresses
-    parameter [7*128-1:0] LIST = 0,  // 7 bits a word, word 0 the lowest
-    parameter HOST   = 0,            // 1: gives clock and addresses; 0: only listens
-    parameter CHECKS = 1,            // 1: frames whose lines were wrong are counted and not published
+    parameter N      = 4,            // scales (words) of a frame, 1 .. 128
+    parameter FIRST  = 0,            // address of word 0 if LISTED is 0; the others follow
+    parameter LISTED = 0,            // 1: LIST has the addresses of the words
+    parameter [7*128-1:0] LIST = 0,  // 7 bits per word, word 0 in the lowest bits
+    parameter HOST   = 0,            // 1: host, drives clock and addresses; 0: slave, only listens
+    parameter CHECKS = 1,            // 1: counts frames with wrong lines and does not publish them
     parameter PERIOD = 20000,        // clocks from one frame to the next
-    parameter OFFSET = 0,            // how much later a host's periods begin, at most half a period
-    parameter T1     = 2,            // clocks, 1 .. 255: the decoder latches
-    parameter T2     = 3,            // address to stable data
-    parameter T3     = 3,            // the data is latched
-    parameter TICKS  = 100           // of 0.1 ns in a clock, for the time stamp
+    parameter OFFSET = 0,            // clocks by which a host's periods begin later, at most PERIOD / 2
+    parameter T1     = 2,            // clocks, 1 .. 255, in which the decoder latches
+    parameter T2     = 3,            // clocks, 1 .. 255, from the address to stable data
+    parameter T3     = 3,            // clocks, 1 .. 255, after the sample of the data
+    parameter TICKS  = 100           // period of the clock in units of 0.1 ns, for the time stamp
 ) (
     input  logic        clock,
-    // The bus, as it comes from the shifters and as it goes to them.
+    // Bus lines from the shifters (inputs) and to them (outputs).
     input  logic        bus_clk,
     input  logic        bus_hold,
     input  logic        bus_read_n,
     input  logic [6:0]  bus_addr,
     input  logic [31:0] bus_data,
-    output logic        drives,        // way of both shifters: 1 on a host, outwards
+    output logic        drives,        // direction of both shifters: 1 outwards (host)
     output logic        clk,
     output logic        hold,
     output logic        read_n,
     output logic [6:0]  addr,
-    // The processor. What is read is there a clock after word_asked.
+    // Processor side. word_read and address_read are valid one clock after word_asked.
     input  logic        claim,
     input  logic        give_back,
     input  logic [6:0]  word_asked,
     output logic [31:0] word_read,
-    output logic [6:0]  address_read,  // of the scale of that word
+    output logic [6:0]  address_read,  // address of the scale of that word
     output logic [31:0] sequence_read,
     output logic [63:0] time_read,
     output logic [31:0] crc_read,
     output logic        claimed,
-    output logic        frame_done,    // S12: the sequence is over
-    output logic        frame_good,    // and the frame was published
-    output logic [15:0] broken,        // frames that were not; this and the counters below stay at FFFFh
-    output logic [15:0] missed_words,  // words with READ high
-    output logic [15:0] alien,         // words with another address than the card's list has there, or one twice
-    output logic [15:0] line_faults,   // words at which clk, hold or READ was not as it should be
+    output logic        frame_done,    // S12: the sequence has ended
+    output logic        frame_good,    // the sequence has ended and the frame was published
+    output logic [15:0] broken,        // frames that were not published; this and the next counters saturate at FFFFh
+    output logic [15:0] missed_words,  // words sampled while READ was high
+    output logic [15:0] alien,         // words with an address other than that of the card's list, or twice in a frame
+    output logic [15:0] line_faults,   // words at which clk, hold or READ had a wrong level
     output logic [3:0]  state
 );
-    // A byte of zlib's CRC-32, the low bit first.
+    // Returns zlib's CRC-32 after one more byte, low bit first.
     function automatic [31:0] crc_byte(input [31:0] crc, input [7:0] value);
         logic [31:0] c;
         integer bits;
@@ -71,7 +72,7 @@ module grating_card #(
         one_more = counter == 16'hFFFF ? counter : counter + 16'd1;
     endfunction
 
-    // ---- the host's clock, edges of the bus' one
+    // ---- the host's clock, and the edges of the bus' clock
     logic [31:0] phase = OFFSET == 0 ? 0 : PERIOD - OFFSET;
     logic        own_clk = 0, clk_before = 0;
     logic [63:0] now = 0;
@@ -89,7 +90,7 @@ module grating_card #(
 
     // ---- the sequence
     logic [7:0] wait_clocks = 0, word = 0;
-    logic       last;  // clock of the state
+    logic       last;  // last clock of the state
     logic [3:0] next;
 
     initial state = 0;
@@ -124,8 +125,8 @@ module grating_card #(
     wire decides = enters && next == 4'd5;
     wire completes = enters && next == 4'd12;
 
-    // ---- what the host drives. The address comes only if READ is seen low, in the clock in which it was pulled low;
-    // else it stays as it was.
+    // ---- the host's outputs. In the first clock in which it drives READ low, the host drives the next address if it
+    // sees READ low on the bus; otherwise the address stays unchanged.
     //   read_n ~~~~\________________/~~~~
     //   looks  ____/~~\__________________
     //   addr   7F  X first
@@ -150,8 +151,8 @@ module grating_card #(
             if (ends_read) read_n <= 1;
         end
 
-    // ---- checks, at the samples and when READ has ended
-    logic [127:0] taken = 0;  // addresses that the frame has
+    // ---- checks: at each sample, and one clock after the end of READ
+    logic [127:0] taken = 0;  // addresses that the frame already has
     logic         frame_bad = 0, word_bad = 0;
     wire          clock_wrong = HOST != 0 && bus_clk != own_clk;
     wire          address_wrong = HOST != 0 ? bus_addr != wanted : taken[bus_addr];
@@ -182,14 +183,14 @@ module grating_card #(
             if (completes && frame_bad) broken <= one_more(broken);
         end
 
-    // ---- the frame: two buffers, the processor's and the logic's
-    logic [38:0] memory [0:255];  // of each word the address and the count
+    // ---- the frame: one buffer belongs to the processor, the other to the logic
+    logic [38:0] memory [0:255];  // address and count of each word, two buffers
     logic [38:0] caught = 0, kept = 0, shown = 0;
     logic [31:0] sequence_of [0:1];
     logic [63:0] time_of [0:1];
     logic [31:0] crc_of [0:1];
     logic [31:0] crc = 0, sequence_number = 0;
-    logic [2:0]  header = 0;      // part of the header that goes into the CRC next; 4: none
+    logic [2:0]  header = 0;      // part of the header that the CRC takes next; 4: none
     logic        filling = 0, published = 0, any = 0, owned = 0, caught_new = 0, started = 0;
     integer      i;
 
@@ -203,10 +204,10 @@ module grating_card #(
             crc_of[i] = 0;
         end
     end
-    // Which buffer the logic fills from now on, as on entering S1.
+    // The buffer that the logic fills from its entry into S1 on.
     wire free = claimed ? !owned : any && !published;
 
-    // The word is caught with the strobe and written a clock later; one with READ high keeps what the buffer had.
+    // The logic latches a word at the sample and stores it one clock later. If READ is high, the old word stays.
     always_ff @(posedge clock) begin
         caught_new <= samples;
         kept <= memory[{filling, word[6:0]}];
@@ -245,7 +246,7 @@ module grating_card #(
             published <= filling;
             any <= 1;
         end
-        // A bad frame that wrote over the one published last leaves the claimed one, which is older.
+        // If a bad frame has overwritten the frame published last, the older claimed frame is the published one again.
         if (completes && frame_bad && claimed && filling == published) published <= owned;
         if (claim && any && !(state != 4'd0 && state != 4'd12 && filling == published)) begin
             claimed <= 1;

@@ -1,7 +1,8 @@
-// The decoder card: counts N scales from their quadrature lines, freezes all counts at HOLD and answers the address on the bus.
+// The decoder card: counts N scales from their quadrature lines, freezes all counts at HOLD and drives the count of the
+// addressed scale on the bus.
 //
-//   hold   __/~~~~~~~~~~~~~~~~~~      one clock later the counts are frozen
-//   read_n ~~~~~~~~\__________/~      two clocks after read_n fell or addr changed the count is on data
+//   hold   __/~~~~~~~~~~~~~~~~~~      the counts are frozen one clock after the rising edge
+//   read_n ~~~~~~~~\__________/~      data has the count two clocks after read_n has fallen or addr has changed
 `timescale 1ns / 1ns
 
 module grating_decoder #(
@@ -15,7 +16,7 @@ module grating_decoder #(
     input  logic [6:0]   addr,
     output logic         data_enable,
     output logic [31:0]  data,
-    output logic         illegal      // a scale's lines changed both in one clock, at some time
+    output logic         illegal      // both lines of a scale have changed in one clock; stays 1
 );
     logic [31:0] count  [0:N-1];
     logic [31:0] frozen [0:N-1];
@@ -42,14 +43,14 @@ module grating_decoder #(
         end
     end
 
-    // ---- the answer: two clocks after the last of read_n's fall and addr's change, and three after hold's edge -----------------
+    // ---- the answer: two clocks after read_n has fallen or addr has changed, and at least three after hold's edge
     localparam [7:0] SCALES = N;
     localparam BITS = N == 1 ? 1 : $clog2(N);
     wire [BITS-1:0] chosen = addr[BITS-1:0];
     wire        asked = !read_n && (read_before || addr != addr_before);
     wire        held = hold && !hold_before;
     logic       waits = 0;
-    logic [1:0] since_asked = 0, since_held = 0;      // clocks, at most 2 and 3
+    logic [1:0] since_asked = 0, since_held = 0;      // clocks, saturating at 2 and 3
     logic [31:0] data_before = 0;
     wire  [1:0] asked_for = asked ? 2'd0 : since_asked;
     wire  [1:0] held_for = held ? 2'd0 : since_held;

@@ -1,5 +1,5 @@
-// A decoder card as it sits in its slot: grating_decoder with the pins of the bus on connector P2. Its data lines are
-// driven only while READ is low and the address is that of one of its scales.
+// A decoder card with its connector: grating_decoder and the pins of the bus on connector P2. The card drives its data
+// lines only while READ is low and the address is that of one of its scales.
 `timescale 1ns / 1ns
 
 module grating_decoder_card #(

@@ -1,11 +1,11 @@
-// A motion card as it sits in its slot: the logic, its two shifters, and the pins of the bus on connector P2.
+// A motion card with its connector: the logic, its two shifters, and the pins of the bus on connector P2.
 //
 //   p2_clk p2_hold p2_read_n ◄──[ clock shifter ]──►┐
 //   p2_addr                  ◄─[ address shifter ]─►│ grating_card ──► processor
 //   p2_data                  ───────────────────────┘
 //
-// CLOCK_OUT and ADDRESS_OUT are the ways of the shifters. Those of a host are 1, those of a slave 0; what does not fit
-// is shown by wrong_direction. Which pin of P2 has which line: motionrack/cards/grating_bus/README.md.
+// CLOCK_OUT and ADDRESS_OUT are the directions of the shifters: 1 (outwards) on a host, 0 (inwards) on a slave;
+// wrong_direction is 1 if they differ from that. The table of pins is in motionrack/cards/grating_bus/README.md.
 `timescale 1ns / 1ns
 
 module grating_motion_card #(
@@ -31,7 +31,7 @@ module grating_motion_card #(
     inout  wire         p2_read_n,
     inout  wire  [6:0]  p2_addr,
     input  logic [31:0] p2_data,
-    // The processor, as in grating_card.
+    // Processor side, as in grating_card.
     input  logic        claim,
     input  logic        give_back,
     input  logic [6:0]  word_asked,
@@ -55,7 +55,7 @@ module grating_motion_card #(
 
     assign wrong_direction = (CLOCK_OUT != 0) != (HOST != 0) || (ADDRESS_OUT != 0) != (HOST != 0);
 
-    // A slave's logic leaves the pins of its shifters open: what one that is set outwards then drives is their rest.
+    // A slave's logic leaves the pins of its shifters open, so a shifter set outwards drives the inactive levels.
     grating_shifter #(.WIDTH(3)) clock_shifter (
         .out(CLOCK_OUT != 0), .from_logic(drives ? {clk, hold, read_n} : 3'b001),
         .to_logic({bus_clk, bus_hold, bus_read_n}), .p2({p2_clk, p2_hold, p2_read_n}));

@@ -1,9 +1,9 @@
-// A level shifter for a group of lines between connector P2 (TTL, 5 V) and the card's logic (LVTTL, 3.3 V). It works one
-// way at a time; its way is what makes a card host or slave. The levels themselves are those of the device that it is
-// put into: a CPLD whose pins bear 5 V, in the source.
+// A level shifter for a group of lines between connector P2 (TTL, 5 V) and the card's logic (LVTTL, 3.3 V). It works in
+// one direction at a time; the direction makes a card host or slave. The device that holds the shifter converts the
+// levels: in the source a CPLD with 5 V tolerant pins.
 //
 //   out 1   from_logic ──► p2
-//   out 0   p2 ──► to_logic, and p2 is left to the others
+//   out 0   p2 ──► to_logic; the shifter does not drive p2
 `timescale 1ns / 1ns
 
 module grating_shifter #(

@@ -1,8 +1,11 @@
-// N linear scales that move at steady speeds: their quadrature lines, made from positions with 16 bits of fraction.
+// N linear scales that move at constant velocities: their quadrature lines, from positions with 16 bits of fraction.
 //
-//   position  0  1  2  3  0          after clock edge m it is floor(m * rate / 65536); rate of scale k: 13,107 - 3,001 k, so that scale 0
-//   a         __/~~~~\____           moves at 20 MHz counts at 100 MHz and the later ones backwards
+//   position  0  1  2  3  0          after clock edge m: floor(m * rate / 65536)
+//   a         __/~~~~\____
 //   b         _/~~~~\_____
+//
+// The rate of scale k is 13,107 - 3,001 (k mod 9) per clock. At 100 MHz, scale 0 makes 20 million counts per second;
+// scales with k mod 9 of 5 and more move backwards.
 `timescale 1ns / 1ns
 
 module grating_scales #(

@@ -1,5 +1,5 @@
-// As grating_system, but of whole cards with their shifters and pins of connector P2, one beside the other in a crate
-// whose backplane has resistors to the lines' rest. Drivers that differ make a line unknown, so that a bus needs one host.
+// As grating_system, but with whole cards, their shifters and the pins of connector P2, in a crate. Resistors of the
+// backplane pull the lines to their inactive levels. Drivers that differ make a line unknown, so a bus needs one host.
 `timescale 1ns / 1ns
 
 module grating_slots #(
@@ -9,7 +9,7 @@ module grating_slots #(
     parameter HOSTS  = 1,
     parameter APART  = 0,
     parameter CHECKS = 0,
-    parameter STRIDE = 1,        // a card's list: word k is that of scale (k STRIDE + SHIFT host) mod N
+    parameter STRIDE = 1,        // word k of a card's list is scale (k STRIDE + SHIFT host) mod N
     parameter SHIFT  = 0
 ) (
     input  logic                clock,
@@ -24,13 +24,13 @@ module grating_slots #(
     output logic [CARDS-1:0]    claimed,
     output logic [CARDS-1:0]    frame_done,
     output logic [CARDS-1:0]    frame_good,
-    output logic [CARDS*64-1:0] counters,       // of each card: broken, missed words, alien, line faults from bit 0 on
+    output logic [CARDS*64-1:0] counters,       // of each card, from bit 0: broken, missed words, alien, line faults
     output logic [CARDS*4-1:0]  states,
     output logic                illegal,
-    output logic                clk_conflict,   // its drivers differ
-    output logic                conflict        // those of hold, read_n or addr
+    output logic                clk_conflict,   // the drivers of clk differ, or a shifter has the wrong direction
+    output logic                conflict        // the drivers of hold, read_n, addr or data differ
 );
-    // The list of host number `host`; slaves have that of host 0.
+    // Returns the list of host number `host`; slaves have that of host 0.
     function automatic [7*128-1:0] list_of(input integer host);
         list_of = 0;
         for (int k = 0; k < N; k = k + 1) list_of[7*k+:7] = 7'((k * STRIDE + SHIFT * host) % N);

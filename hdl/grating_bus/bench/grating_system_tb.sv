@@ -1,9 +1,9 @@
-// Runs grating_system, or with the macro SLOTS grating_slots, for FRAMES periods and prints what each card does:
-//   state CARD CLOCK STATE                          a state was entered
-//   frame CARD SEQUENCE TIME CRC ADDRESS COUNT ..           the claimed frame, after those of all cards were complete
-//   published CARD CLOCK                            a frame that is good was published
+// Runs grating_system (with the macro SLOTS: grating_slots) for FRAMES periods and prints the events of each card:
+//   state CARD CLOCK STATE                          the card has entered a state
+//   frame CARD SEQUENCE TIME CRC ADDRESS COUNT ..   the claimed frame, after all cards have completed theirs
+//   published CARD CLOCK                            the card has published a good frame
 //   counters CARD BROKEN MISSED ALIEN LINES         at the end
-//   end CLOCK CONFLICTS CONFLICTS ILLEGAL           clocks with a conflict on clk, on the others; whether a scale was too fast
+//   end CLOCK CONFLICTS CONFLICTS ILLEGAL           clocks with a conflict on clk and on others; 1: a scale too fast
 `timescale 1ns / 1ns
 
 module grating_system_tb #(
