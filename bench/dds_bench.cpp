@@ -43,7 +43,7 @@ Instant stamp_of(const Frame& frame) {
     return Instant{static_cast<std::int64_t>(std::uint64_t{frame.counts[1]} << 32 | frame.counts[0])};
 }
 
-/// The other process: publishes every `pace`, or at maximum rate (0), until it is killed.
+/// Runs the other process: publishes every `pace`, or at maximum rate (0), until it is killed.
 [[noreturn]] void publish_forever(const std::string& bus, Duration pace, std::uint32_t scales) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
@@ -85,7 +85,8 @@ double percentile(const std::vector<double>& sorted, double part) {
                                             static_cast<std::size_t>(part * static_cast<double>(sorted.size())))];
 }
 
-/// Receives `frames` valid frames and records their ages in us. Returns false if no frame arrives for 10 s.
+/// Receives valid frames and appends their ages in us until `ages` has `frames` of them. Returns false if none arrives
+/// for 10 s.
 bool hear(dds::Subscriber& subscriber, std::size_t frames, std::vector<double>& ages) {
     while (ages.size() < frames) {
         if (!subscriber.wait(whole_seconds(10))) return false;
@@ -97,7 +98,7 @@ bool hear(dds::Subscriber& subscriber, std::size_t frames, std::vector<double>& 
     return true;
 }
 
-/// Arguments: period in us (0: maximum rate), scales.
+/// Receives frames of the other process. Arguments: period in us (0: maximum rate), number of scales.
 void network(benchmark::State& state) {
     ::setenv("CYCLONEDDS_URI", loopback, 0);
     const std::string bus = "bench-" + std::to_string(::getpid());

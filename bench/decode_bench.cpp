@@ -161,7 +161,7 @@ void bit_planes(benchmark::State& state, const Kernels& kernels) {
     compare(state, stream.size(), work, baseline, work() == baseline());
 }
 
-/// Time of reading the bytes alone: an upper bound for any decoder at this size.
+/// Measures the time of reading the bytes alone: no decoder can be faster at this size.
 void reading_alone(benchmark::State& state, const Kernels& kernels) {
     const std::vector<std::uint8_t> stream(static_cast<std::size_t>(state.range(0)));
     for (auto _ : state) benchmark::DoNotOptimize(kernels.steady(stream.data(), stream.size() / 64, 3, 0));

@@ -72,7 +72,7 @@ void travel_between_any_states(benchmark::State& state) {
 }
 BENCHMARK(travel_between_any_states);
 
-/// Near targets: nearly every profile has no cruise phase and requires solving an equation.
+/// Solves tasks with near targets: nearly every profile has no cruise phase and requires solving an equation.
 void travel_between_any_states_near(benchmark::State& state) {
     auto work = tasks(1);
     for (Task& t : work) t.to.position = t.from.position + 0.02 * (t.to.position - t.from.position);
@@ -80,7 +80,7 @@ void travel_between_any_states_near(benchmark::State& state) {
 }
 BENCHMARK(travel_between_any_states_near);
 
-/// Initial velocity and acceleration up to twice their limits.
+/// Solves tasks whose initial velocity and acceleration are up to twice their limits.
 void travel_from_outside(benchmark::State& state) {
     auto work = tasks(1);
     for (Task& t : work) t.from = {t.from.position, 2 * t.from.velocity, 2 * t.from.accel};

@@ -62,7 +62,7 @@ std::int64_t number_behind(const std::string& text, const char* key) {
     return at == std::string::npos ? 0 : std::atoll(text.c_str() + at + std::char_traits<char>::length(key));
 }
 
-/// The child process: connects, subscribes and reads for the given time.
+/// Runs the child process: connects, subscribes and reads for the given time.
 Counted read_pictures(std::uint16_t port, const Load& load) {
     std::vector<server::WebClient> clients;
     for (int i = 0; i < load.clients; ++i) {
@@ -101,7 +101,7 @@ Counted read_pictures(std::uint16_t port, const Load& load) {
     return out;
 }
 
-/// The parent process: serves until the child has finished counting.
+/// Runs the parent process: serves until the child has finished counting.
 std::unique_ptr<server::ServedRack> serve() {
     server::ServedSettings settings;
     settings.server.port = 0;
