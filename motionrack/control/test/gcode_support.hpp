@@ -92,7 +92,8 @@ inline void expect_refused_at(std::span<const RefusedAt> rows, const Settings& s
     }
 }
 
-/// A machine with long travels and G0 as initial mode, for programs that test the order of lines.
+/// Returns settings (by default of a machine with long travels) with G0 as initial mode, for programs that test the
+/// order of lines.
 inline Settings in_g0(Settings settings = machine("XYZABC", 1e6)) {
     settings.start_in_g0 = true;
     return settings;

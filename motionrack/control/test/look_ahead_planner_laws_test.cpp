@@ -224,7 +224,7 @@ RC_GTEST_PROP(PlannerLaws, AShortWindowIsNeverFasterThanFullPasses, ()) {
     for (std::size_t i = 0; i < out.size(); ++i) RC_ASSERT(out[i].entry_velocity <= entries[i] + 1e-9);
 }
 
-/// A smooth curve of short lines, as a CAM system writes it.
+/// Returns a smooth curve of short lines, as a CAM system writes it.
 std::vector<Move> curve(int count, double step) {
     std::vector<Move> moves;
     double angle = 0;

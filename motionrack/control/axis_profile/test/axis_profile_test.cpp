@@ -16,7 +16,7 @@ double seconds_of(const Task& t) {
     return time_optimal_profile(t.from, t.to, t.limits).value().duration();
 }
 
-/// Tolerance for comparing durations.
+/// Returns the tolerance for comparing durations, s.
 double exactness(double seconds) {
     return 1e-8 * std::max(1.0, seconds);
 }
