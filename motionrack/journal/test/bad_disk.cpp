@@ -79,7 +79,7 @@ int on_truncate(sqlite3_file* one, sqlite3_int64 size) {
     }
 }
 
-/// The real disk need not sync: the state after a power loss is reconstructed from the calls.
+/// Records the sync only: the state after a power loss is reconstructed from the recorded calls.
 int on_sync(sqlite3_file* one, int) {
     switch (next_call({Kind::sync, file_of(one)->path, 0, {}})) {
         case BadDisk::Fault::none:

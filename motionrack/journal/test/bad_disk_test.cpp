@@ -170,7 +170,7 @@ class OnABadDisk : public JournalFile, public testing::WithParamInterface<Scenar
         }
         check_trust((*journal)->before(), known, calls, lies);
     }
-    /// The accepted value is the last one kept before closing began, and a closed run is accepted.
+    /// Checks that an accepted value is the last one kept before closing began, and that a closed run is accepted.
     static void check_trust(const std::optional<LastRun>& before, const Known& known, std::int64_t calls, bool lies) {
         const bool trusted = before && before->clean && before->doubts.empty();
         if (trusted) {
