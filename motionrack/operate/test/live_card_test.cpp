@@ -126,7 +126,7 @@ TEST(RealCard, IsStoppedIfAThreadEndsTheProgramOutOfMemory) {
     std::_Exit(code);
 }
 
-/// For terminate handlers, which have no arguments.
+/// Gives the card to terminate handlers, which have no arguments.
 LiveCard*& ended_card() {
     static LiveCard* card = nullptr;
     return card;

@@ -18,7 +18,7 @@
 
 namespace motionrack::operate {
 
-/// Two axes at the rack file's positions; `more`: further text of the file.
+/// Returns a rack of two axes at the rack file's positions; `more`: further text of the file.
 inline rack::RackConfig two_axes(const std::string& more = "") {
     return rack::good(
         "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = 10\n"
@@ -30,7 +30,7 @@ inline rack::RackConfig router() {
     return *rack::read_rack_text(*rack::rack_template("router")).config;
 }
 
-/// A servo behind a card that positions it by itself.
+/// Returns the rack of a servo whose card positions it by itself.
 inline rack::RackConfig carriage() {
     return *rack::read_rack_file((source_root / "examples/11_carriage/machine.toml").string()).config;
 }

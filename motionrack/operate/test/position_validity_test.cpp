@@ -186,7 +186,7 @@ bool is_homing(const Status& status, const char* text) {
     return rack::homing_states_text(status.homing).find(text) != std::string::npos;
 }
 
-/// The router's A is homed long before the others.
+/// Homes the router; when A is homed, long before the other axes, calls `then` and pushes A.
 void push_what_is_home(Operated& o, void (*then)(Machine&)) {
     bool pushed = false;
     o.each_status([&o, then, pushed](const Status& status) mutable {

@@ -36,7 +36,7 @@ class CardFile {
         std::filesystem::remove(link_);
         std::filesystem::create_symlink(to, link_);
     }
-    /// Memory filled with equal words.
+    /// Returns a file of memory filled with equal bytes.
     std::filesystem::path memory(char byte) const {
         std::filesystem::create_directories(folder_);
         std::ofstream(folder_ / "memory", std::ios::binary) << std::string(16, byte);
