@@ -68,7 +68,7 @@ std::vector<FieldCase> all_fields() {
     return out;
 }
 
-/// A rack with only that field besides the required ones; the field is in line 3.
+/// Returns a rack file with only that field besides the required ones; the field is in line 3.
 std::string rack_with_field(const FieldCase& c, const std::string& value) {
     std::string out = fmt::format("\n[{}]\n{} = {}\n", c.header, with_unit(c.field->key, c.unit), value);
     const auto needs = [&](std::string_view header, std::string_view key, std::string_view text) {

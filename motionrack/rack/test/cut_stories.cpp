@@ -77,7 +77,7 @@ Orders ioflex02(Random& random) {
     }
 }
 
-/// Random operation of an IO8255: only modes 0 and 1; strobes change more often than other lines.
+/// Returns a random operation of an IO8255: only modes 0 and 1; strobes change more often than other lines.
 Orders io8255(Random& random) {
     const auto bit = [&] { return static_cast<double>(below(random, 2)); };
     switch (below(random, 6)) {
@@ -206,8 +206,8 @@ constexpr const char* encoder_wires = R"([wires]
 "s.enc1_b" = "B.enc_a"
 )";
 
-/// Every third seed has a servo loop closed through the frames. In the others, the frame period is so short that many
-/// calls end within a frame.
+/// Returns the story of a seed. Every third seed has a servo loop closed through the frames; in the others, the frame
+/// period is so short that many calls end within a frame.
 Story grating_story(std::uint64_t seed) {
     Random random(seed);
     const bool servo = seed % 3 == 0;

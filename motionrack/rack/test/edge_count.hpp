@@ -102,7 +102,7 @@ class Counted {
 /// Moves one axis of an MCX314, the first card of a rack, by its registers.
 class Mcx314Moves {
   public:
-    /// `wr2`: value for the axis.
+    /// `wr2`: value of the axis' register WR2.
     Mcx314Moves(Counted& bench, char axis, std::uint32_t wr2, std::int64_t max_speed, std::int64_t max_pulses)
         : bench_(bench),
           axis_(std::string("xyzu").find(axis)),

@@ -60,7 +60,7 @@ class EncoderReaders {
     }
 
   private:
-    /// The IOFLEX02 counts the edges of each track, modulo 65,536.
+    /// Expects that the IOFLEX02 has counted the edges of each track, modulo 65,536.
     void expect_each_edge() {
         constexpr std::uint32_t base = 0x2300, strobe = 0x10, axis = 0x18;
         Card& card = *bench_.rack.card("p1");

@@ -40,7 +40,7 @@ HomingOutcome homed(const std::string& text, const std::string& target, int type
     return out;
 }
 
-/// An axis with a switch at 1 mm, a backoff velocity of 2 mm/s and a latch velocity of 0.5 mm/s.
+/// Returns a rack file of an axis with a switch at 1 mm, a backoff velocity of 2 mm/s and a latch velocity of 0.5 mm/s.
 std::string axis_from(double start_mm, const std::string& more = {}) {
     return fmt::format(
         "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\ninitial_position_mm = "

@@ -195,7 +195,7 @@ inline Disturbed wishes_of(ChordMaker& random, double seconds) {
     return out;
 }
 
-/// Known breaches of random programs in the profile of a rack.
+/// Returns the known breaches of random programs in the profile of a rack.
 inline test::LimitFactors of_random_profile(const RackConfig& config) {
     return config.jerk_limited() ? test::LimitFactors() : test::known_breaches("random_trapezoids");
 }

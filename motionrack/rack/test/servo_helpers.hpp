@@ -5,7 +5,8 @@
 
 namespace motionrack::rack {
 
-/// A carriage with 0.01 mm per count, 500 mm/s; `servo`, `rest`: more keys of its servo, more sections.
+/// Returns a rack file of a carriage with 0.01 mm per count and 500 mm/s; `servo`: more keys of its servo, `rest`: more
+/// sections.
 inline std::string carriage(const std::string& servo = {}, const std::string& rest = {}) {
     return "[card.board]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"board\"\nlead_mm = 10\nencoder_counts_per_rev = "
            "1000\n"
