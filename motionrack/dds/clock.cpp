@@ -1,4 +1,4 @@
-// CLOCK_MONOTONIC, in ticks.
+// Reads CLOCK_MONOTONIC and sleeps until an instant of it; converts between its nanoseconds and ticks of 0.1 ns.
 #include <ctime>
 #include <motionrack/dds/clock.hpp>
 

@@ -1,13 +1,13 @@
-// The computer's monotonic clock: reception times of frames and due times.
+// The computer's monotonic clock: gives the reception times of frames, and sleeps until their due times.
 #pragma once
 
 #include <motionrack/base/time.hpp>
 
 namespace motionrack::dds {
 
-/// Returns the time since an instant before the program started; the same in all processes of a computer.
+/// Returns the time since a fixed instant before the program started, the same instant for all processes of a computer.
 Instant monotonic_now();
-/// Returns at `when` or later, or earlier on a signal: check the clock.
+/// Sleeps until `when`. A signal can end the sleep earlier, so check the clock afterwards.
 void sleep_until(Instant when);
 
 }  // namespace motionrack::dds

@@ -1,4 +1,4 @@
-// Loading Cyclone DDS.
+// Loads Cyclone DDS.
 #include <fmt/format.h>
 
 #include <motionrack/dds/dds_library.hpp>

@@ -1,5 +1,5 @@
-// Cyclone DDS, loaded with the first bus on a network. Its names in the sources of this module are those of the loaded
-// library.
+// Cyclone DDS, loaded when a process first uses a bus on a network. The sources of this module call its functions by
+// their own names, which stand for those of the loaded library.
 #pragma once
 
 #include <dds/dds.h>
@@ -31,7 +31,7 @@ struct DdsLibrary {
 
 /// Loads the library. Errors: io, it is not installed. A loaded library stays loaded.
 Result<void> load_library();
-/// Requires load_library().
+/// Returns the loaded library. Requires load_library().
 const DdsLibrary& library();
 
 }  // namespace motionrack::dds

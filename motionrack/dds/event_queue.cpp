@@ -1,4 +1,4 @@
-// Messages of events, and their queue.
+// Formats the messages of events, and queues events.
 #include <fmt/format.h>
 
 #include <motionrack/dds/event_queue.hpp>

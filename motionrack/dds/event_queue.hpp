@@ -41,12 +41,13 @@ struct BusEvent {
 /// Returns the message of an event: the event, its consequence and the remedy.
 std::string sentence(const BusEvent& event);
 
-/// Stores events until they are read; at most one per second of each kind, so a thousand bad frames give one report.
+/// Stores up to 32 events until they are read; drops further ones. put() stores every event: a caller that can have
+/// many events of a kind asks open() first, so that a thousand bad frames give one report.
 class EventQueue {
   public:
     static constexpr Duration min_distance = whole_seconds(1);
 
-    /// True if an event of this kind may be put.
+    /// Returns true if the last event of this kind is at least one second old, or if there was none.
     bool open(EventKind kind, Instant now) const;
     void put(const BusEvent& event);
     bool take(BusEvent& event);

@@ -1,4 +1,4 @@
-// Due times.
+// Computes the due times of frames.
 #include <algorithm>
 #include <motionrack/dds/frame_pacer.hpp>
 
@@ -11,7 +11,7 @@ Instant FramePacer::due(Instant frame, Instant now) {
         first_frame_ = frame;
         first_due_ = now;
     }
-    // A time scale of 1 uses whole ticks; otherwise 53 bits resolve a tick within a day's run.
+    // A time scale of 1 uses whole ticks. Other scales use a double: its 53 bits resolve one tick in a run of ten days.
     const Duration elapsed = frame - first_frame_;
     const Duration real = time_scale_ == 1
                               ? elapsed

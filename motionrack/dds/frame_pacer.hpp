@@ -1,5 +1,5 @@
-// Due times of frames in real time. Every due time is relative to the first frame, so errors do not accumulate; the
-// pacer uses no clock.
+// Computes the due times of frames in real time. Every due time is relative to the first frame, so errors do not
+// accumulate. The pacer reads no clock.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,15 @@ class FramePacer {
     /// `time_scale`: bus time per unit of real time, > 0; `pace`: real time between two frames.
     FramePacer(double time_scale, Duration pace) : time_scale_(time_scale), pace_(pace) {}
 
-    /// Due time of the frame of bus time `frame`, queried at `now`. The first frame is due at once. A past due time
-    /// means publication at once, counted as late beyond one pace. Beyond `max_behind` the schedule restarts instead of
-    /// catching up, which is a slip.
+    /// Returns the due time of the frame with the bus time `frame`; `now`: the present time. The first frame is due at
+    /// once. A due time in the past means publication at once; the frame counts as late if it is more than one pace
+    /// behind. A frame more than `max_behind` behind, or earlier than the first one, restarts the schedule at `now`;
+    /// the former counts as a slip.
     Instant due(Instant frame, Instant now);
 
     std::uint64_t late() const { return late_; }
     std::uint64_t slips() const { return slips_; }
-    Duration max_lateness() const { return max_lateness_; }  ///< lateness of the latest frame
+    Duration max_lateness() const { return max_lateness_; }  ///< time behind schedule of the frame that was latest
 
   private:
     double time_scale_;

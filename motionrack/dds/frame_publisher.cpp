@@ -1,4 +1,4 @@
-// Waiting for due times, and the publishing loop.
+// Waits for due times, and publishes frames in a loop.
 #include <sys/prctl.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace motionrack::dds {
 
 namespace {
 
-/// Sleeps in slices, so that a stop takes effect between slow frames.
+/// Sleeps in slices of at most 100 ms, so that a stop takes effect between slow frames.
 void wait_until(Instant due, const std::atomic<bool>* stop) {
     for (Instant now = monotonic_now(); now < due && !(stop && stop->load()); now = monotonic_now())
         sleep_until(std::min(due, now + milliseconds(100)));
@@ -19,7 +19,7 @@ void wait_until(Instant due, const std::atomic<bool>* stop) {
 
 FramePublisher::FramePublisher(Publisher& publisher, const PublishingSettings& settings)
     : publisher_(publisher), settings_(settings), pacer_(settings.time_scale, settings.pace) {
-    // Linux may add 50 us to a thread's sleeps, a quarter of the default period.
+    // By default Linux may lengthen each sleep of a thread by 50 us, a quarter of the default period.
     ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 }
 

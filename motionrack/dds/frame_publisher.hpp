@@ -12,24 +12,25 @@ namespace motionrack::dds {
 class FrameSource {
   public:
     virtual ~FrameSource() = default;
-    /// Runs until the next frame is complete and returns it; false: no more frames. A frame of 0 words means that none
-    /// was read, but the loop still waits for its time. Errors: the cause of a stop.
+    /// Runs until the next frame is complete and returns it; false: no more frames. A frame of 0 words says that no
+    /// frame was read: the loop waits for its due time and publishes nothing. Errors: the cause of a stop.
     virtual Result<bool> next(Frame& frame) = 0;
 };
 
 struct PublishingSettings {
-    double time_scale = 1;                                              ///< bus time per unit of real time
-    Duration pace = microseconds(200);                                  ///< real time between two frames
-    std::uint64_t max_frames = 0;                                       ///< frames to publish; 0: all
-    const std::atomic<bool>* stop = nullptr;                            ///< ends the loop before the next frame
-    std::function<void(const BusEvent&)> report;                        ///< receives the events of the publisher
-    std::function<void(std::uint64_t sent, Duration behind)> progress;  ///< once per frame
+    double time_scale = 1;                        ///< bus time per unit of real time
+    Duration pace = microseconds(200);            ///< real time between two frames
+    std::uint64_t max_frames = 0;                 ///< frames to publish; 0: all
+    const std::atomic<bool>* stop = nullptr;      ///< ends the loop before the next frame
+    std::function<void(const BusEvent&)> report;  ///< receives each event of the publisher
+    /// Called once per frame with the number of frames sent and the time since the due time of this frame.
+    std::function<void(std::uint64_t sent, Duration behind)> progress;
 };
 
 struct Published {
-    std::uint64_t late = 0;   ///< frames sent more than a pace after their due time
-    std::uint64_t slips = 0;  ///< number of times the schedule restarted, more than a second late
-    Duration max_lateness{};  ///< maximum lateness
+    std::uint64_t late = 0;   ///< frames more than one pace behind their due time
+    std::uint64_t slips = 0;  ///< number of times the schedule restarted because a frame was more than one second late
+    Duration max_lateness{};  ///< time behind schedule of the frame that was latest
     bool stopped = false;
 };
 

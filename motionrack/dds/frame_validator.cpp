@@ -1,4 +1,4 @@
-// Validation of samples.
+// Validates samples.
 #include <algorithm>
 #include <motionrack/dds/frame_validator.hpp>
 
@@ -6,10 +6,10 @@ namespace motionrack::dds {
 
 namespace {
 
-/// Sequence numbers within this distance are newer; all others are older.
+/// A sequence number less than this distance ahead is newer; all others are older.
 constexpr std::uint32_t half = 0x8000'0000U;
 
-/// The event of a validation result, if it has one of its own.
+/// Returns the event of a validation result; malformed for a result without an event of its own.
 EventKind kind_of(Validation verdict) {
     switch (verdict) {
         case Validation::duplicate:
@@ -83,7 +83,7 @@ bool FrameValidator::in_conflict() const {
                        [](const OtherSource& other) { return other.in_conflict; });
 }
 
-/// Checks a sample by itself.
+/// Checks the content of a sample, independent of earlier samples.
 Validation FrameValidator::check(const Sample& sample) const {
     if (sample.format != wire_format) return Validation::foreign;
     if (sample.frame.words < 1 || sample.frame.words > grating_bus::max_scales) return Validation::malformed;
@@ -93,7 +93,8 @@ Validation FrameValidator::check(const Sample& sample) const {
     return Validation::used;
 }
 
-/// True if `after` continues `before`: later, by as many periods as its sequence shows, plus or minus one.
+/// Returns true if `after` continues `before`: its time is later by as many periods as its sequence number, plus or
+/// minus one.
 bool FrameValidator::fits(const Frame& before, const Frame& after) const {
     __extension__ using Wide = __int128;
     const std::uint32_t ahead = after.sequence - before.sequence;
@@ -222,8 +223,8 @@ void FrameValidator::note_other(const PublisherIdentity& source, Instant now) {
     at->last_received = now;
 }
 
-/// A frame of the owner after one of another source: both publish. A source that follows a silent one does not cause a
-/// conflict.
+/// Reports a conflict with each other source in the list: the owner has published after it, so both publish. A source
+/// that takes over from a silent one is removed from the list first and causes no conflict.
 void FrameValidator::find_conflicts(Instant now) {
     for (std::size_t i = 0; i < other_count_; ++i) {
         OtherSource& other = others_[i];

@@ -5,8 +5,9 @@
 //   frames of any other source                 counted, never used, until the owner is silent for `release`
 //   foreign, damaged, malformed samples        counted, reported, never used
 //
-// Reports are events, at most one per second of each kind, with the count so far; event_queue.hpp formats their
-// messages.
+// Events report these cases, with the count so far. Each kind of rejected or lost sample, and stale data, give at most
+// one event per second; a new owner, a conflict, its end and the first frame after stale data are always reported.
+// event_queue.hpp formats the messages.
 #pragma once
 
 #include <array>
@@ -23,8 +24,8 @@ enum class Validation : std::uint8_t {
     late,          ///< older than the last used frame
     jump,          ///< sequence and time do not continue the last used frame
     wrong_crc,     ///< the frame's CRC or the sample's check does not match
-    foreign,       ///< another format
-    malformed,     ///< values that no publisher sends
+    foreign,       ///< the sample's format number is not wire_format
+    malformed,     ///< a value outside the range of a publisher, or another period or pace than before
     wrong_words,   ///< N differs from the expected one
     other_source,  ///< another source owns the bus
 };
@@ -44,8 +45,9 @@ struct Counts {
 };
 
 struct ValidatorSettings {
-    int words = 0;                         ///< the expected N; 0: that of the source's first frame
-    Duration release = milliseconds(500);  ///< a source owns the bus until it is silent for this time and for two paces
+    int words = 0;  ///< the expected N; 0: that of the source's first frame
+    /// A source owns the bus until it is silent for this time and for two paces, whichever is longer.
+    Duration release = milliseconds(500);
 };
 
 /// A source that does not own the bus.
@@ -68,21 +70,22 @@ class FrameValidator {
     /// Advances the time to `now` without a sample: detects stale data and silent sources.
     void poll(Instant now);
 
-    /// True if a source owns the bus; the functions below are valid only then.
+    /// Returns true once a source has owned the bus, also after it has become silent. source(), frame(), period(),
+    /// pace() and age() are valid only then.
     bool joined() const { return joined_; }
     const PublisherIdentity& source() const { return source_; }
     const Frame& frame() const { return frame_; }
     Duration period() const { return Duration{period_}; }
     Duration pace() const { return Duration{pace_}; }
-    /// True after two paces without a used frame, and before the first one.
+    /// Returns true before the first used frame, and after two paces without one. Updated by take() and poll().
     bool stale() const { return stale_; }
-    /// Time since the last used frame was received.
+    /// Returns the time since the last used frame was received.
     Duration age(Instant now) const { return now - used_at_; }
     const Counts& counts() const { return counts_; }
     std::span<const OtherSource> others() const { return {others_.data(), other_count_}; }
     bool in_conflict() const;
 
-    /// Takes the next event; returns false if there is none. If the queue overflows, the newest events are dropped.
+    /// Takes the next event; returns false if there is none. A full queue drops new events.
     bool next_event(BusEvent& event) { return events_.take(event); }
 
   private:

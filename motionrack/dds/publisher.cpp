@@ -1,4 +1,4 @@
-// A writer, with a reader for all other participants.
+// Publishes on the network by a DDS writer, and detects other publishers by a reader that ignores its own participant.
 #include <fmt/format.h>
 
 #include <motionrack/dds/clock.hpp>

@@ -1,4 +1,4 @@
-// The host's side: publishes the frames of one card on a bus, and detects other publishers.
+// Publishes the frames of one card on a bus, and detects other publishers of the bus.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// Frames of a bus on another computer for a virtual card: every valid frame once, in order, between two runs of the
-// rack.
+// Feeds the frames of a bus on another computer to a virtual card: every valid frame once, in order, between two runs
+// of the rack.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Sources, the sample's check, and names of buses.
+// Identities of publishers, the check of a sample, and checks of bus names and domains.
 #include <fmt/format.h>
 #include <unistd.h>
 #include <zlib.h>

@@ -36,7 +36,7 @@ PublisherIdentity new_source();
 
 inline constexpr std::uint32_t wire_format = 0x4D524702;  ///< "MRG" and the version of sample.idl
 
-/// Trivially copyable; counts and addresses beyond the frame's `words` are undefined.
+/// One frame with its source. Trivially copyable; counts and addresses beyond the frame's `words` are undefined.
 struct Sample {
     std::uint32_t format = wire_format;
     PublisherIdentity source;
@@ -47,7 +47,7 @@ struct Sample {
 };
 
 inline constexpr Duration shortest_period = microseconds(1);
-inline constexpr Duration max_period = whole_seconds(60);  ///< limit for bus time and real time
+inline constexpr Duration max_period = whole_seconds(60);  ///< limit of period and pace
 
 std::uint32_t check_of(const Sample& sample);
 

@@ -1,4 +1,5 @@
-// Received numbers among the last 64 sequence numbers: distinguishes a late frame from a duplicate.
+// Window of the last 64 sequence numbers, with a bit for each received one: distinguishes a late frame from a
+// duplicate.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +13,14 @@ class SequenceWindow {
         seen_ = 1;
         span_ = 1;
     }
-    /// Adds `sequence`, which is `ahead` (1 .. 2^31 - 1) of the newest one.
+    /// Adds `sequence`, which is `ahead` (1 .. 2^31 - 1) numbers after the newest one.
     void advance(std::uint32_t ahead) {
         newest_ += ahead;
         seen_ = ahead < 64 ? seen_ << ahead | 1 : 1;
         span_ = ahead < 64 && span_ + ahead < 64 ? span_ + ahead : 64;
     }
-    /// Marks a number that is `behind` (0 .. 2^31) the newest; returns true if it was known to be missing.
+    /// Marks the number `behind` (0 .. 2^31) numbers before the newest as received; returns true if the window has it
+    /// as missing.
     bool fill(std::uint32_t behind) {
         if (behind >= span_) return false;
         const std::uint64_t bit = std::uint64_t{1} << behind;
@@ -26,14 +28,14 @@ class SequenceWindow {
         seen_ |= bit;
         return missing;
     }
-    /// True if a number this far behind is within the window.
+    /// Returns true if the number `behind` numbers before the newest is in the window.
     bool knows(std::uint32_t behind) const { return behind < span_; }
     std::uint32_t newest() const { return newest_; }
 
   private:
     std::uint32_t newest_ = 0;
     std::uint64_t seen_ = 0;
-    std::uint32_t span_ = 0;  ///< numbers since the start, at most 64
+    std::uint32_t span_ = 0;  ///< sequence numbers in the window: those since begin(), at most 64
 };
 
 }  // namespace motionrack::dds

@@ -1,4 +1,4 @@
-// The engine's thread writes samples with their time to a ring buffer; the polling thread validates them.
+// A thread of Cyclone DDS writes samples with their reception time to a ring buffer; the polling thread validates them.
 #include <algorithm>
 #include <condition_variable>
 #include <motionrack/dds/clock.hpp>
@@ -38,7 +38,7 @@ class NetworkSubscriber final : public Subscriber {
     Instant poll(const Use& use) override {
         const Instant now = monotonic_now();
         for (Slot slot; next(slot);) {
-            // The engine has several threads: a time stamp may be slightly before the previous one.
+            // Cyclone DDS receives with several threads, so a time stamp may be slightly before the previous one.
             last_ = std::max(last_, slot.received);
             const Validation verdict = judge_.take(slot.sample, last_);
             if (use) use(slot.sample, verdict, last_);
@@ -102,7 +102,7 @@ class NetworkSubscriber final : public Subscriber {
     std::size_t first_ = 0, count_ = 0;
     std::uint64_t overruns_ = 0;
     Instant last_{};
-    // Last member: the engine's threads end before the data that they use are destroyed.
+    // These members are destroyed first: the threads of Cyclone DDS end before the data that they use.
     Entity own_, topic_, reader_;
 };
 

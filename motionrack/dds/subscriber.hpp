@@ -13,9 +13,11 @@ struct SubscriberSettings {
     std::string bus = "stage";
     int domain = 0;
     ValidatorSettings judge;
-    std::size_t queue = 1024;  ///< capacity between two polls; further samples drop the oldest, and are counted
-    bool other_participants_only = false;  ///< for the conflict detection of a publisher
-    int participant = 0;                   ///< the engine's participant to use; 0: a new one
+    /// Capacity between two polls, samples; a further sample replaces the oldest one and counts as an overrun.
+    std::size_t queue = 1024;
+    /// True: ignores writers of the same participant; a publisher detects conflicts with it.
+    bool other_participants_only = false;
+    int participant = 0;  ///< handle of the DDS participant to use; 0: creates one
 };
 
 class Subscriber {
@@ -30,7 +32,7 @@ class Subscriber {
     virtual Instant poll(const Use& use) = 0;
     /// Waits for a sample, at most `timeout`; returns true if one is waiting.
     virtual bool wait(Duration timeout) = 0;
-    /// Samples dropped because polling was too slow.
+    /// Returns the number of samples dropped because polling was too slow.
     virtual std::uint64_t overruns() const = 0;
 
     FrameValidator& judge() { return judge_; }

@@ -1,4 +1,4 @@
-// Conversion of samples to and from the network format, and joining a domain.
+// Converts samples to and from the network format, and joins a domain.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ void WireBuffer::get(Sample& sample) const {
     sample.pace = wire_.pace;
     sample.frame.time = wire_.time;
     sample.frame.sequence = wire_.sequence_number;
-    // The engine refuses longer sequences; a shorter copy, or one with too few addresses, would only give a wrong CRC.
+    // Cyclone DDS rejects longer sequences. A shorter copy, or one with too few addresses, gives a wrong CRC.
     sample.frame.words =
         std::min({wire_.counts._length, wire_.addresses._length, static_cast<std::uint32_t>(grating_bus::max_scales)});
     std::copy_n(wire_.counts._buffer, sample.frame.words, sample.frame.counts.begin());

@@ -1,4 +1,4 @@
-// Conversion between a sample and the engine's struct; only the sources of this module include it.
+// Conversion between a sample and the struct of Cyclone DDS; only the sources of this module include it.
 #pragma once
 
 #include <sample.h>
@@ -36,7 +36,7 @@ class WireBuffer {
     std::array<std::uint8_t, grating_bus::max_scales> addresses_{};
 };
 
-/// A handle of the engine, released by the destructor.
+/// Handle of a Cyclone DDS entity; the destructor deletes the entity.
 class Entity {
   public:
     explicit Entity(dds_entity_t handle = 0) : handle_(handle) {}
@@ -58,11 +58,11 @@ class Entity {
 
 /// Creates a participant in a domain; entities created from it end with it. Errors: invalid_input, io.
 Result<Entity> join(const std::string& bus, int domain);
-/// Best effort, keep last 1, volatile, in the bus' partition; `ignore_own`: a reader ignores this participant's
-/// writers.
+/// Returns the quality of service of a bus: best effort, keep last 1, volatile, in the bus' partition. `ignore_own`: a
+/// reader ignores the writers of its own participant.
 using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
 Qos qos_of(const std::string& bus, bool ignore_own);
-/// Makes an error of a DDS return code. `what` begins its message: "The frames' topic could not be created".
+/// Makes an error from a DDS return code. `what` begins its message: "The frames' topic could not be created".
 tl::unexpected<Error> engine_error(const char* what, dds_return_t code);
 
 }  // namespace motionrack::dds

@@ -1,4 +1,4 @@
-// Frames for a virtual card, the publishing loop, and refusals before any network access.
+// RemoteFeed with a scripted subscriber, the publishing loop, and settings refused before any network access.
 #include <gtest/gtest.h>
 
 #include <motionrack/dds/frame_publisher.hpp>
@@ -9,7 +9,7 @@
 namespace motionrack::dds {
 namespace {
 
-/// A subscriber with samples from the test.
+/// Subscriber whose samples come from the test.
 class ScriptedSubscriber final : public Subscriber {
   public:
     ScriptedSubscriber() : Subscriber(ValidatorSettings{}) {}
@@ -64,7 +64,7 @@ class CountingPublisher final : public Publisher {
     std::vector<std::uint32_t> numbers;
 };
 
-/// Frames 0, 1, ...; fails at `broken`.
+/// Source of the frames 0, 1, ...; returns an error at frame `broken`.
 class CountingSource final : public FrameSource {
   public:
     std::uint32_t number = 0, frames = 100, broken = 1000;

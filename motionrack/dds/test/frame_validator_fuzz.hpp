@@ -1,5 +1,5 @@
-// Fuzzer of the validator: a stream of numbers becomes valid, nearly valid and invalid samples at any time. The
-// invariants are checked after each. For libFuzzer and the module's own test.
+// Fuzzer of the validator: a stream of numbers becomes valid, nearly valid and invalid samples at any time. It checks
+// these invariants after each sample. libFuzzer and the module's own test run it.
 //
 //   used is sound         a used frame has the right CRCs, the expected N and the source that owns the bus;
 //                         the held frame is the one used last
@@ -21,7 +21,7 @@ class Run {
   public:
     explicit Run(Feed& feed) : feed_(feed), judge_({static_cast<int>(feed.below(3) * 3), milliseconds(200)}) {}
 
-    /// Takes up to `samples` samples; returns "" or the violated invariant.
+    /// Validates up to `samples` samples, fewer if the feed ends; returns "" or the violated invariant.
     std::string go(int samples) {
         for (int i = 0; i < samples && problem_.empty() && !feed_.empty(); ++i) step();
         return problem_;

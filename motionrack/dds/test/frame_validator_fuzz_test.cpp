@@ -1,4 +1,4 @@
-// The fuzzer's rules, with random numbers.
+// Runs the fuzzer of the validator with random numbers.
 #include <gtest/gtest.h>
 
 #include <motionrack/dds/test/frame_validator_fuzz.hpp>

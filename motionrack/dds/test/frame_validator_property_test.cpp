@@ -1,4 +1,4 @@
-// Invariants of a validator on any network, and the pacer.
+// Invariants of the validator on a lossy, reordering network with several sources, and of the pacer.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -11,7 +11,7 @@ namespace motionrack::dds {
 namespace {
 
 RC_GTEST_PROP(FrameValidatorProperty, EveryNumberIsUsedLateOrLost, ()) {
-    // Frames that a network has lost, duplicated and slightly reordered.
+    // Frames as they arrive from a network that loses, duplicates and slightly reorders them.
     const int frames = *rc::gen::inRange(1, 200);
     const auto start = *rc::gen::arbitrary<std::uint32_t>();
     struct Arrival {
@@ -37,7 +37,7 @@ RC_GTEST_PROP(FrameValidatorProperty, EveryNumberIsUsedLateOrLost, ()) {
         sample.frame.time = (arrival.number + 1) * period.count();
         seal(sample);
         const Validation verdict = judge.take(sample, now += period);
-        // A frame from before the validator listened is late each time it comes.
+        // The validator started after such a frame was sent, so the frame is late each time it arrives.
         const bool known = arrival.number >= oldest, again = known && !seen.insert(arrival.number).second;
         duplicates += again ? 1 : 0;
         const Validation expected = again                                                     ? Validation::duplicate

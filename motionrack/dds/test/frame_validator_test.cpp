@@ -1,4 +1,4 @@
-// Used, counted and reported samples of a validator.
+// Tests which samples a validator uses, counts and reports.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A validator that receives a frame each period.
+/// A validator, and functions that give it a frame each period.
 class FrameValidatorTest : public testing::Test {
   protected:
     FrameValidator judge;
@@ -24,7 +24,7 @@ class FrameValidatorTest : public testing::Test {
         for (BusEvent event; judge.next_event(event);) out.push_back(event);
         return out;
     }
-    /// Returns the message of the only event of this kind.
+    /// Returns the messages of the waiting events of this kind, one per line; takes all waiting events.
     std::string reported(EventKind kind) {
         std::string out;
         for (const BusEvent& event : events())

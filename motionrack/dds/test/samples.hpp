@@ -1,4 +1,4 @@
-// Samples for tests, whose positions show their number.
+// Samples for tests: the positions of a sample follow from its number.
 #pragma once
 
 #include <motionrack/dds/frame_validator.hpp>
@@ -20,7 +20,7 @@ inline void seal(Sample& sample) {
     sample.check = check_of(sample);
 }
 
-/// Makes the sample of frame `number` of a source whose card's time began at 1 ms.
+/// Makes the sample of frame `number`; the time of frame 0 is 1 ms.
 inline Sample sample_of(const PublisherIdentity& source, std::uint32_t number, std::uint32_t words = 6) {
     Sample out;
     out.source = source;
