@@ -1,4 +1,4 @@
-// First-order error propagation with independent errors.
+// Computes calibrations from marks and readings, with first-order propagation of independent errors.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ bool good(std::initializer_list<double> numbers) {
 }
 constexpr const char* no_numbers = "A number is infinite, above 1e12 or missing. Give finite numbers.";
 
-/// Centre x, y, radius, counts per turn.
+/// Centre x and y and radius, mm; encoder counts per turn of the table.
 using Circle = std::array<double, 4>;
 
 /// Returns the angle at `centre` from `from` to `to`, -pi to pi, counter-clockwise positive.
@@ -31,7 +31,8 @@ double angle_between(sim::Spot centre, sim::Spot from, sim::Spot to) {
     return atan2(ax * by - ay * bx, ax * bx + ay * by);
 }
 
-/// Returns the circle through three points; false if they are collinear.
+/// Computes the circle through three marks, and in `unlike` the relative difference of the counts per turn between both
+/// steps. Returns false if the marks are collinear or coincide.
 bool circle_of(const std::array<RotaryMark, 3>& m, Circle& out, double& unlike) {
     const double bx = m[1].at.x - m[0].at.x, by = m[1].at.y - m[0].at.y, cx = m[2].at.x - m[0].at.x,
                  cy = m[2].at.y - m[0].at.y;
@@ -41,7 +42,7 @@ bool circle_of(const std::array<RotaryMark, 3>& m, Circle& out, double& unlike) 
     const sim::Spot centre{m[0].at.x + ux, m[0].at.y + uy};
     const double first = angle_between(centre, m[0].at, m[1].at), second = angle_between(centre, m[1].at, m[2].at);
     if (first == 0 || second == 0 || first + second == 0) return false;
-    // The table turns the part away under the laser spot, so the marks run in the opposite direction.
+    // The table turns the part away under the fixed laser spot, so the marks run in the opposite direction on the part.
     const double turns1 = -first / (2 * pi), turns2 = -second / (2 * pi);
     const double by_both = (m[2].count - m[0].count) / (turns1 + turns2);
     unlike = std::fabs((m[1].count - m[0].count) / turns1 - (m[2].count - m[1].count) / turns2) / std::fabs(by_both);
@@ -93,7 +94,8 @@ Result<RotaryResult> calibrate_rotary(const std::array<RotaryMark, 3>& marks, do
     if ((first > 0) != (second > 0))
         return refused(
             "The marks do not turn in one direction. Turn the table by less than half a revolution between them.");
-    // Numerical derivatives of the result by each input.
+    // Adds the contribution of each input: the numerical derivative of the result with respect to it, times its
+    // uncertainty.
     std::array<double, 4> squares{};
     const auto tried = [&](const std::array<RotaryMark, 3>& changed, double times) {
         Circle c{};

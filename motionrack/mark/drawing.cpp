@@ -12,7 +12,7 @@ double distance(Spot a, Spot b) {
     return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
 }
 
-/// Number of chords of an arc of radius `r` mm within the tolerance.
+/// Returns the number of chords of an arc of radius `r` mm that keeps it within the tolerance (mm).
 int chords(double sweep, double r, double tolerance) {
     const double n = std::ceil(std::fabs(sweep) * std::sqrt(std::max(r, 0.0) / (8 * tolerance)));
     return static_cast<int>(std::clamp(n, 1.0, 100'000.0)) + 1;
@@ -60,7 +60,8 @@ void Pen::quadratic_to(Spot control, Spot p) {
 
 void Pen::cubic_to(Spot control1, Spot control2, Spot p) {
     const Spot q[4] = {to_mm_(at_), to_mm_(control1), to_mm_(control2), to_mm_(p)};
-    // A chord of 1/n of the curve deviates by an eighth of the maximum second derivative over n squared.
+    // A chord over 1/n of the curve deviates from it by at most an eighth of the maximum second derivative, over n
+    // squared.
     double second_difference = 0;
     for (int i = 0; i < 2; ++i)
         second_difference = std::max(

@@ -36,7 +36,7 @@ struct Affine {
     double determinant() const { return a * d - b * c; }
     /// Returns true if circles remain circles.
     bool keeps_circles() const;
-    /// Upper bound of the factor by which a length grows.
+    /// Returns an upper bound of the factor by which a length grows.
     double max_scale() const;
 };
 
@@ -76,7 +76,7 @@ class Pen {
 
 /// Transforms a drawing; arcs stay arcs if circles remain circles, else become lines within the tolerance.
 Drawing transformed(const Drawing& drawing, const Affine& transform, double tolerance_mm = default_tolerance_mm);
-inline constexpr double fine_tolerance_mm = 0.0002;  ///< for comparison with marks
+inline constexpr double fine_tolerance_mm = 0.0002;  ///< tolerance for the comparison of a drawing with its marks
 /// Returns the drawing as straight segments, with arcs within the tolerance.
 std::vector<parts::DrawnSegment> segments_of(const Drawing& drawing, double tolerance_mm = fine_tolerance_mm);
 /// Returns the number of segments that segments_of() would return.
@@ -85,7 +85,7 @@ std::size_t segment_count(const Drawing& drawing, double tolerance_mm = fine_tol
 struct Box {
     Spot low, high;
 };
-/// Bounding box of all strokes; 0, 0 without strokes.
+/// Returns the bounding box of all strokes; 0, 0 without strokes.
 Box box_of(const Drawing& drawing);
 double length_of(const Drawing& drawing);
 std::size_t element_count(const Drawing& drawing);

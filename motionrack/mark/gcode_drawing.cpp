@@ -13,7 +13,8 @@ namespace {
 using control::Move;
 using control::MoveKind;
 
-/// Angle of an arc around its centre; `turns` counts full and started turns and gives the direction.
+/// Returns the angle of an arc around its centre, radians. The sign of `move.turns` is the direction; its magnitude is
+/// one more than the number of full turns.
 double sweep_of(const Move& move, Spot from, Spot to) {
     const Spot c{move.centre_first, move.centre_second};
     double sweep = atan2(to.y - c.y, to.x - c.x) - atan2(from.y - c.y, from.x - c.x);

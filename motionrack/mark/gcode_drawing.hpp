@@ -7,7 +7,8 @@
 
 namespace motionrack::mark {
 
-/// Errors: invalid_input with line and column: an invalid program, or an arc in another plane.
+/// Reads a G-code program as a drawing. Errors: invalid_input with line and column for an invalid program, or an arc in
+/// another plane.
 Result<Drawing> read_gcode(std::string_view text, const std::string& file);
 
 }  // namespace motionrack::mark

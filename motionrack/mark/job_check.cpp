@@ -14,7 +14,7 @@ namespace {
 
 using rack::TomlNode;
 
-/// Checks that a value is a multiple of the card's step.
+/// Reports an error if a value (us) is not a multiple of the card's step (us).
 void check_steps(const TomlNode& root, std::string_view section, std::string_view key, double value, double step,
                  rack::Problems& problems) {
     if (value / step == std::floor(value / step)) return;

@@ -1,4 +1,4 @@
-// Constraints between the keys of a job that are valid individually.
+// Checks constraints between keys whose values are valid individually.
 #pragma once
 
 #include <motionrack/mark/marking_job.hpp>

@@ -1,4 +1,4 @@
-// Keys of a marking job by section; source of the reader and the reference page.
+// Tables of the keys of a marking job, by section. The reader and the generated reference page use them.
 #pragma once
 
 #include <array>

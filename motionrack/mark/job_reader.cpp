@@ -19,7 +19,7 @@ double decimal_field(const TomlNode& node) {
     return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number;
 }
 
-/// Reads a key like profile = [[0, 50], [0.5, 120]]: times in s and velocities.
+/// Reads the key profile = [[0, 50], [0.5, 120]]: pairs of a time in s and a velocity.
 void read_profile(const TomlNode& table, BeltSettings& belt, rack::Problems& problems) {
     const TomlNode* profile = table.find("profile");
     if (profile == nullptr) return;
@@ -38,7 +38,7 @@ void read_profile(const TomlNode& table, BeltSettings& belt, rack::Problems& pro
         problems.error(profile->value_location, track.error().message);
 }
 
-/// Reads a key like part_positions_mm = [0, 40, 95]: rising belt distances.
+/// Reads a key such as part_positions_mm = [0, 40, 95]: increasing belt distances.
 void read_at(const TomlNode& table, std::string_view key, PartsSettings& parts, rack::Problems& problems) {
     const TomlNode* at = table.find(key);
     if (at == nullptr) return;

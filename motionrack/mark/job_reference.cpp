@@ -8,7 +8,7 @@ namespace motionrack::mark {
 
 namespace {
 
-/// Defaults of a section.
+/// Returns the object whose members hold the defaults of a section.
 const void* defaults_of(const MarkingJob& job, const DrawingSource& drawing, const rack::RackLens& lens,
                         const PartsSettings& parts, std::string_view section) {
     if (section == "drawing") return &drawing;

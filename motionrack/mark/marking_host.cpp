@@ -1,4 +1,4 @@
-// Loads, starts and serves the card.
+// Loads the lists of a card, starts them and loads the next texts while it marks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using rtc5::Engine;
 using rtc5::StartFate;
 
 constexpr std::int64_t slice = 50'000;    // ticks between checks of progress and stop
-constexpr std::int64_t host_ticks = 100;  // polling interval of the host, ticks
+constexpr std::int64_t host_ticks = 100;  // polling interval of the host: 1 ms in ticks
 constexpr auto max_ticks = static_cast<std::int64_t>(max_seconds * 1e5);
 
 bool takes_turns(const MarkingJob& job, const Prepared& prepared) {
@@ -97,8 +97,8 @@ Result<void> MarkingHost::load(int list, std::size_t marked) {
     return put_all(card_, list, commands);
 }
 
-/// An external start resets the encoders only if a correction has requested it before. A list does so and ends before
-/// the belt time starts.
+/// Loads the settings of external starts. An external start resets an encoder only if a list has requested it before,
+/// so this runs a list with that request before the belt time starts.
 Result<void> MarkingHost::arm() {
     const bool chain = job_.parts->start == PartStart::equidistant;
     card_.set_control_mode(rtc5::control_ext_start | rtc5::control_reset_at_start |
@@ -127,7 +127,7 @@ Result<void> MarkingHost::arm() {
     return {};
 }
 
-/// Finds the ticks at which the sensor detects the parts.
+/// Finds the ticks at which the sensor detects a part: each part, or only the first with equidistant starts.
 Result<void> MarkingHost::find_edges() {
     const PartsSettings& parts = *job_.parts;
     const auto gone = [&](std::int64_t tick) {
@@ -201,7 +201,8 @@ void MarkingHost::ended(std::int64_t tick) {
     }
 }
 
-/// One poll of the host: selects the next list and loads the next text into the finished one.
+/// Executes one poll of the host: selects the list that the next start begins, and loads the texts of coming parts into
+/// finished lists.
 Result<void> MarkingHost::serve() {
     if (!alternates_) return {};
     card_.parts().starts.set_position(begun_ % 2 == 0 ? 0 : card_.settings().list1);

@@ -17,7 +17,7 @@
 namespace motionrack::mark {
 
 struct RunObserver {
-    std::function<void(double part)> progress;  ///< 0 .. 1
+    std::function<void(double part)> progress;  ///< receives the finished part of the work, 0 .. 1
     std::function<bool()> stop;                 ///< polled; true cancels
 };
 
@@ -29,16 +29,16 @@ Result<void> put_all(rtc5::Engine& card, int list, const std::vector<rtc5::Comma
 /// Result of a part's start, in ticks of the belt time: 0 is the start of the job.
 struct PartRun {
     std::size_t part = 0;    ///< from 0 on
-    std::size_t marked = 0;  ///< index of the drawing if it started: Prepared::of
+    std::size_t marked = 0;  ///< if the start began a list: index of its drawing for Prepared::of()
     rtc5::StartFate fate = rtc5::StartFate::begun;
-    std::int64_t begin = 0, end = 0;  ///< list execution; a lost start: its instant
+    std::int64_t begin = 0, end = 0;  ///< execution of the list; a lost start: both are its instant
 };
 
-/// Movement of the part at the card's inputs.
+/// Inputs of the card: the encoder counts and McBSP words of the moving part.
 class InputModel final : public rtc5::Inputs {
   public:
     static Result<InputModel> make(const MarkingJob& job, const ConveyorTracking& following);
-    /// Call after the object has its final address. The belt time is 0 at this tick of the card.
+    /// Sets the belt time to 0 at this tick of the card. Requires that the object already has its final address.
     Result<void> begin(std::int64_t tick);
     void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) override;
     bool words(std::int64_t first, std::span<std::uint32_t> out) override;
@@ -54,8 +54,8 @@ class InputModel final : public rtc5::Inputs {
 
 class MarkingHost final : rtc5::ListListener {
   public:
-    /// Loads everything; the belt time is 0. `job` and `prepared` must outlive the object. Errors: as list_of; refused
-    /// if a list is too long or a part never arrives.
+    /// Loads settings, tables and the first lists into a new card, and sets the belt time to 0. `job` and `prepared`
+    /// must outlive the object. Errors: as list_of(); refused if a list is too long or a part never reaches the sensor.
     static Result<std::unique_ptr<MarkingHost>> make(const MarkingJob& job, const Prepared& prepared,
                                                      const ConveyorTracking& following);
 
@@ -64,7 +64,7 @@ class MarkingHost final : rtc5::ListListener {
     Result<void> run(rtc5::Sink* sink, const std::function<void(std::int64_t)>& done, const RunObserver& watch);
 
     rtc5::Engine& card() { return card_; }
-    /// Tick of the card at which the belt time is 0.
+    /// Returns the tick of the card at which the belt time is 0.
     std::int64_t begin() const { return begin_; }
     /// Returns the starts of all parts so far, in time order.
     const std::vector<PartRun>& runs() const { return runs_; }
@@ -91,7 +91,7 @@ class MarkingHost final : rtc5::ListListener {
     std::int64_t begin_ = 0;
     std::vector<std::int64_t> edges_;  ///< in belt ticks
     std::size_t next_edge_ = 0;
-    std::deque<std::size_t> waiting_;  ///< parts with a queued start
+    std::deque<std::size_t> waiting_;  ///< parts whose start is queued in the card
     std::vector<PartRun> runs_;
     std::array<std::size_t, 2> loaded_{};
     std::size_t begun_ = 0, over_ = 0, next_load_ = 2;

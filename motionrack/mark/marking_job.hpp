@@ -28,12 +28,12 @@ struct DrawingSource {
 };
 
 struct Optics {
-    double bits_per_mm = 8656;       ///< K, without lens and ct5
+    double bits_per_mm = 8656;       ///< K: field bits per mm; used without a lens and without a ct5 file
     std::optional<std::string> ct5;  ///< file of the card's correction table
-    bool correction = true;          ///< false: without a table in the card, although there is a lens
+    bool correction = true;          ///< false: the card uses no correction table, although there is a lens
 };
 
-/// Settings in the card's list.
+/// Speeds and delays that the list sets.
 struct ProcessSpeeds {
     double mark_speed_mm_s = 500, jump_speed_mm_s = 3000;
     double jump_delay_us = 0, mark_delay_us = 0, polygon_delay_us = 0;  ///< multiples of 10 us
@@ -56,7 +56,7 @@ enum class WaitMode : std::uint8_t { none, automatic };
 
 struct FlySettings {
     FlyMode mode = FlyMode::off;
-    double tracking_error_us = 0;  ///< multiple of 10 us
+    double tracking_error_us = 0;  ///< time that the card extrapolates encoder counts; a multiple of 10 us
     double scale_factor = 1;       ///< factor on the correct scale, to simulate a wrong calibration
     std::optional<double>
         simulated_velocity;  ///< mm/s or degrees/s represented by the simulated encoder; empty: belt velocity
@@ -101,18 +101,18 @@ struct MarkingJob {
     parts::SerialPositionSettings sender;
 
     parts::ConveyorSettings track() const;
-    /// Returns 1 or -1: sense of the belt movement along its direction.
+    /// Returns 1 if the belt moves along its direction, -1 if against it.
     double sense() const;
 };
 
-/// A job, or all errors with their positions.
+/// Result of reading a job: the job, or all errors with their positions.
 struct JobRead {
     std::optional<MarkingJob> job;
     std::vector<Error> errors;
 };
 JobRead read_job(std::string_view text, const std::string& file);
 
-/// Reference page of all keys of a job file.
+/// Returns the reference page of all keys of a job file.
 std::string job_file_reference();
 
 /// Returns the bytes of a file named by a job (path relative to the job).

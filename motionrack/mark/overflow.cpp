@@ -1,4 +1,4 @@
-// Checks the four edges of the field tick by tick in blocks that leave it.
+// Finds the intervals beyond each edge of the field; evaluates single ticks only in blocks that leave the field.
 #include <algorithm>
 #include <motionrack/cards/rtc5/model/kernels.hpp>
 #include <motionrack/mark/overflow.hpp>
@@ -11,7 +11,7 @@ struct Edge {
     std::string_view bit;
     bool y = false, upper = false;
 
-    /// Bits beyond the edge; 0 or less: inside.
+    /// Returns the distance beyond the edge, bits; 0 or less: inside.
     double beyond(rtc5::Point p) const {
         const double v = y ? p.y : p.x;
         return upper ? v - rtc5::max_field : rtc5::min_field - v;

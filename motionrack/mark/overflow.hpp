@@ -23,10 +23,10 @@ struct Overflow {
     Spot part;                ///< the same spot in part coordinates, to locate it on the drawing
     std::size_t part_no = 0;  ///< part index, from 0
     double beyond_mm = 0;     ///< maximum distance beyond the edge
-    bool marking = false;     ///< the laser was on during a part of it: marks are displaced
+    bool marking = false;     ///< true: the laser was on during a part of the interval, so marks are displaced
 };
 
-/// Receives the samples of a card.
+/// Receives the samples of a card and records the intervals outside the field.
 class OverflowLog {
   public:
     static constexpr std::size_t max_places = 10'000;  ///< further ones are counted but not stored
@@ -45,7 +45,7 @@ class OverflowLog {
         bool open = false, marking = false;
         std::int64_t since = 0;
         rtc5::Point at;
-        double beyond = 0;  ///< bits
+        double beyond = 0;  ///< maximum distance beyond the edge so far, bits
     };
     void sample(std::int64_t tick, rtc5::Point at, bool laser);
     void close(std::size_t edge, std::int64_t tick);

@@ -28,7 +28,7 @@ PartOutcome fate_of(rtc5::StartFate fate) {
     }
 }
 
-/// Position of the part in pictures.
+/// Returns the transform from the coordinates of a part to those of the pictures.
 Affine shown_place(const MarkingJob& job, const Prepared& prepared, const parts::Conveyor& track, std::size_t part) {
     if (!job.parts || part == 0) return {};
     if (track.settings().rotary) {
@@ -37,7 +37,8 @@ Affine shown_place(const MarkingJob& job, const Prepared& prepared, const parts:
         const Spot c = track.settings().centre_mm;
         return Affine{1, 0, 0, 1, c.x, c.y}.after({t.cos, t.sin, -t.sin, t.cos, 0, 0}).after({1, 0, 0, 1, -c.x, -c.y});
     }
-    // Later parts are drawn behind in movement direction, a quarter of a part length apart.
+    // Each later part is drawn behind the previous one against the movement, with a gap of a quarter of the part
+    // length.
     const Spot forward = track.carried({}, job.sense());
     double low = 0, high = 0;
     const Box box = box_of(prepared.drawing);
@@ -79,7 +80,7 @@ void share_out(const MarkingJob& job, const Prepared& prepared, const std::vecto
         PartMarked& part = out.parts[run.part];
         part.fate = fate_of(run.fate);
         part.begin_s = seconds(run.begin), part.end_s = seconds(run.end);
-        part.drawing = std::min(begun.size(), prepared.further.size());  // a lost part would have got the next drawing
+        part.drawing = std::min(begun.size(), prepared.further.size());  // the drawing that a lost part would have got
         if (run.fate != rtc5::StartFate::begun) continue;
         part.drawing = run.marked;
         part.number = job.parts.value_or(PartsSettings{}).number(run.marked);

@@ -5,8 +5,8 @@
 
 namespace motionrack::mark {
 
-/// Fills points, parts and deviation of `out`, and the part of each overflow. `points`: of the whole run, in belt
-/// coordinates.
+/// Assigns the marks to the parts: fills points, parts and deviation of `out`, and the part of each overflow. `points`:
+/// marks of the whole run, in belt coordinates.
 void share_out(const MarkingJob& job, const Prepared& prepared, const std::vector<PartRun>& runs,
                const parts::Conveyor& track, std::span<const parts::MarkedPoint> points, Marked& out);
 

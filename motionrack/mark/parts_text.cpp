@@ -1,4 +1,4 @@
-// Parts of a run, one row each, with the reason for each unmarked part.
+// Formats the parts of a run as a table, one row each, with the reason for each unmarked part.
 #include <fmt/format.h>
 
 #include <iterator>

@@ -4,7 +4,7 @@
 //    the field    worst point       worst point   a ring: the point of maximum deviation; in the field: the spot path,
 //                                                  dashed while the laser is off
 //
-// Parts much wider than high are drawn below each other.
+// If the marked parts are more than 2.6 times as wide as high, the pictures of whole parts are placed below each other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,9 +21,9 @@ namespace motionrack::mark {
 namespace {
 
 constexpr int column = 380, line_width = 3 * column + 2 * 16;  // px; three columns and the gaps between them
-constexpr double wide_from = 2.6;  // width to height ratio from which parts are drawn below each other
+constexpr double wide_from = 2.6;  // width to height ratio above which pictures are placed below each other
 
-/// Additional style of a sheet; a page has its own.
+/// Style sheet of the single sheet; a report page has its own.
 constexpr const char* sheet_style =
     "<style>.ground{fill:#fff}.frame{fill:none;stroke:#d9e0e7}.drawn{stroke:#1f2933;stroke-width:1.2}"
     ".without{stroke:#d9480f;stroke-width:1.5;stroke-linejoin:round}.jumps{stroke:#8a97a3;stroke-dasharray:3 4}"
@@ -31,7 +31,7 @@ constexpr const char* sheet_style =
     ".off-by,.over{stroke:#b3261e;stroke-width:2.5}.scale{stroke:#1f2933;stroke-width:1.5}"
     ".halo text{paint-order:stroke;stroke:#fff;stroke-width:4px;stroke-linejoin:round;fill:#1f2933}</style>\n";
 
-/// A picture without its opening tag.
+/// One picture: `body` is its SVG content without the enclosing svg element.
 struct Part {
     std::string title;
     std::vector<std::string> words;
@@ -46,7 +46,7 @@ double size_of(const Box& box) {
     return std::max(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
-/// Returns the nearest point of the drawing.
+/// Returns the point of the drawing nearest to `p`.
 Spot nearest_point(std::span<const parts::DrawnSegment> segments, Spot p) {
     Spot best = p;
     double min_distance2 = std::numeric_limits<double>::infinity();
@@ -62,9 +62,10 @@ Spot nearest_point(std::span<const parts::DrawnSegment> segments, Spot p) {
     return best;
 }
 
-constexpr std::size_t max_parts = 24;  ///< per picture
+constexpr std::size_t max_parts = 24;  ///< parts shown in one picture
 
-/// Parts side by side, or around their table.
+/// Returns the strokes of all shown parts in picture coordinates: belt parts side by side, table parts around their
+/// centre.
 std::vector<StrokePoint> side_by_side(const Marked& marked, const auto& nodes_of_part) {
     std::vector<StrokePoint> out;
     for (std::size_t i = 0; i < std::min(marked.parts.size(), max_parts); ++i)
@@ -83,7 +84,7 @@ std::vector<StrokePoint> drawings_of(const Prepared& prepared, const Marked& mar
         return nodes_of(std::span<const parts::DrawnSegment>(prepared.of(part.drawing).segments));
     });
 }
-/// Part with the maximum deviation.
+/// Returns the index of the part with the maximum deviation.
 std::size_t max_deviation_part(const Marked& marked) {
     const auto part_of_max = std::max_element(
         marked.parts.begin(), marked.parts.end(),
@@ -113,7 +114,8 @@ struct Scene {
     bool wide() const { return box.high.x - box.low.x > wide_from * (box.high.y - box.low.y); }
 };
 
-/// Overflows with the laser on, at the actual or the intended position.
+/// Draws a cross for each overflow with the laser on, at most 200; `place` gives the position of an overflow in the
+/// plot.
 std::string crosses(const Plot& plot, const std::vector<Overflow>& overflows, const auto& place) {
     constexpr std::size_t max_crosses = 200;
     std::string out;
@@ -160,7 +162,7 @@ Part part_of(const Scene& scene, const Marked* marked, const char* title, const 
     return part;
 }
 
-/// Path of the spot in the field: marks solid, jumps dashed.
+/// Draws the path of the spot in the field: marks solid, jumps dashed.
 Part field_of(const Scene& scene) {
     Part part;
     const MarkingOutcome& out = scene.out;
@@ -186,7 +188,8 @@ Part field_of(const Scene& scene) {
     return part;
 }
 
-/// Surroundings of the point of maximum deviation; empty if the whole picture shows it as well.
+/// Draws the surroundings of the point of maximum deviation, enlarged. Returns an empty picture if the whole picture
+/// already shows the deviation at this size.
 Part worst_of(const Scene& scene, const Marked& marked, const char* title, const char* style) {
     Part part;
     const parts::Deviation& d = marked.deviation;

@@ -1,4 +1,4 @@
-// Converts millimetres to bits, speeds to bits/ms, and the belt movement to a scale.
+// Converts a job to the commands of a list: millimetres to bits, speeds to bits/ms, and the belt movement to a scale.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -62,14 +62,14 @@ class List {
 struct Direction {
     double x = 0, y = 0;
 };
-/// For a belt along an axis, the other component is exactly 0.
+/// Returns the direction of the belt as a unit vector; along X or Y, the other component is exactly 0.
 Direction direction_of(const parts::ConveyorSettings& track) {
     const SinCos d = sin_cos(track.direction_deg * (pi / 180));
     const auto clean = [](double v) { return std::fabs(v) < 1e-12 ? 0.0 : v; };
     return {clean(d.cos), clean(d.sin)};
 }
 
-/// Correction of a linear movement along X, Y or both.
+/// Appends the commands that correct for a linear movement along X, Y or both.
 void put_linear(List& list, const MarkingJob& job, const Prepared& prepared, const ConveyorTracking& following) {
     const Direction d = direction_of(following.track);
     const double scale = prepared.bits_per_mm * job.fly.scale_factor / counts_per_unit(job, following);
@@ -80,7 +80,7 @@ void put_linear(List& list, const MarkingJob& job, const Prepared& prepared, con
         // Activates both at once, so that neither counter starts a tick later; both are 0 at the start of the list.
         list.put(Op::activate_fly_xy, {scale * d.x, scale * d.y});
     } else {
-        // With several parts, the external start itself resets both.
+        // With [parts], the external start resets the encoders.
         if (d.x != 0) list.put(Op::set_fly_x, {scale * d.x});
         if (d.y != 0) list.put(Op::set_fly_y, {scale * d.y});
     }
@@ -91,7 +91,7 @@ void put_fly(List& list, const MarkingJob& job, const Prepared& prepared, const 
     if (following.mode == FlyMode::off || unit == 0) return;
     const bool words = following.mode == FlyMode::mcbsp;
     if (!following.corrects) {
-        // No correction, but the waits need a count from 0.
+        // A scale of 0 corrects nothing, but set_fly_x zeroes the encoder, so that the waits count from 0.
         if (job.fly.wait_mode != WaitMode::none && !words) list.put(Op::set_fly_x, {0});
         return;
     }
@@ -105,7 +105,8 @@ void put_fly(List& list, const MarkingJob& job, const Prepared& prepared, const 
     list.put(words ? Op::set_fly_rot_pos : Op::set_fly_rot, {resolution});
 }
 
-/// Shifts everything by the belt distance within a time; before fly, so that the flags include it.
+/// Shifts all marks by the belt travel in offset_us. It uses the global transform, which precedes the correction, so
+/// the field flags include the shift.
 void put_offset(List& list, const MarkingJob& job, const ConveyorTracking& following) {
     constexpr double before_fly = 4;
     if (job.fly.offset_us == 0 || !following.corrects) return;
@@ -131,7 +132,8 @@ void put_settings(List& list, const MarkingJob& job) {
     list.put(Op::set_laser_delays, {job.pace.laser_on_us * 2, job.pace.laser_off_us * 2});
 }
 
-/// A stroke from the end of the last jump, or with a jump before it, shifted.
+/// Appends the marks and arcs of a stroke, shifted. `jump`: a jump to its start comes first; else the position is
+/// already there.
 void put_stroke(List& list, const Stroke& stroke, Spot shift, bool jump) {
     if (jump) list.put(Op::jump_abs, {list.bits(stroke.from.x + shift.x), list.bits(stroke.from.y + shift.y)});
     for (const Element& e : stroke.elements) {
@@ -143,7 +145,7 @@ void put_stroke(List& list, const Stroke& stroke, Spot shift, bool jump) {
     }
 }
 
-/// Waits until the belt has moved this distance.
+/// Appends a wait until the belt has moved by `travel` (mm).
 void put_wait(List& list, const MarkingJob& job, const ConveyorTracking& following, double travel) {
     const double unit = counts_of(job, following, travel), rising = unit < 0 ? -1 : 1;
     if (following.mode == FlyMode::mcbsp)
@@ -152,7 +154,8 @@ void put_wait(List& list, const MarkingJob& job, const ConveyorTracking& followi
         list.put(Op::wait_for_encoder_mode, {unit, 0, rising});
 }
 
-/// Each batch waits with the spot parked at its start, so that the waiting spot does not leave the field with the part.
+/// Appends the batches. Each waits with the spot parked at its start in the field, so that the waiting spot does not
+/// leave the field with the part.
 Result<void> put_batches(List& list, const MarkingJob& job, const Prepared& prepared, const ConveyorTracking& following,
                          const Drawing& drawing) {
     const double margin = job.fly.margin_mm, sense = job.sense();
@@ -181,7 +184,8 @@ Result<void> put_batches(List& list, const MarkingJob& job, const Prepared& prep
     return {};
 }
 
-/// For a stationary part outside the field, only a line on the field edge would be marked.
+/// Refuses a drawing that lies outside the field and that no movement brings into it: the card would only mark a line
+/// on the field edge.
 Result<void> check_reaches_field(const Drawing& drawing, const Box& field, const ConveyorTracking& following) {
     const auto& profile = following.track.profile;
     const bool carried =
@@ -265,7 +269,7 @@ Result<Prepared> prepare(const MarkingJob& job, const Load& load) {
                                 *job.optics.ct5, file.bits_per_mm(), out.bits_per_mm));
             if (job.optics.correction) out.table = rtc5::table_of(file);
         } else {
-            // Without a lens, the table's own design field is used.
+            // Without a lens, the bits/mm in the header of the ct5 file apply.
             if (file.bits_per_mm() > 0)
                 out.bits_per_mm = file.bits_per_mm();
             else

@@ -22,15 +22,15 @@ struct Prepared : PartDrawing {
     std::shared_ptr<const rtc5::Table> table;  ///< empty: 1:1
     std::vector<std::string> notes;            ///< warnings before the run
 
-    /// Drawing of the part with mark index `marked`, from 0.
+    /// Returns the drawing of the part with mark index `marked`, from 0.
     const PartDrawing& of(std::size_t marked) const {
         return marked == 0 || further.empty() ? *this : further[marked - 1];
     }
-    /// Range of the card's output, mm.
+    /// Returns the range of the card's output, mm.
     Box field() const;
 };
 
-/// Errors: those of the files named by the job.
+/// Reads the files of a job and prepares its drawings and tables. Errors: those of the files.
 Result<Prepared> prepare(const MarkingJob& job, const Load& load);
 
 /// Movement of the part and its tracking by the card.
@@ -38,13 +38,13 @@ struct ConveyorTracking {
     parts::ConveyorSettings track;
     FlyMode mode = FlyMode::off;
     double simulated_velocity = 0;  ///< mm/s or degrees/s represented by the simulated encoder
-    bool corrects = true;           ///< false: only the correction is omitted
+    bool corrects = true;           ///< false: waits and tracking remain, but the list does not correct the position
 };
 /// Returns the tracking of a job, with all velocities multiplied by `factor`.
 ConveyorTracking following_of(const MarkingJob& job, double factor = 1);
 /// Returns the encoder counts or word units per mm or degree of movement; 0: no tracking.
 double counts_per_unit(const MarkingJob& job, const ConveyorTracking& following);
-/// Whole counts of a belt distance, signed.
+/// Returns a belt distance (mm or degrees) as whole counts, signed.
 double counts_of(const MarkingJob& job, const ConveyorTracking& following, double travel);
 
 /// Returns the list for the part with mark index `marked`, including set_end_of_list. Errors: refused if the card does

@@ -1,4 +1,4 @@
-// Converts millimetres to pixels.
+// Converts millimetres to pixels; clips, simplifies and draws strokes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,11 +14,11 @@ namespace {
 
 using trace::coordinate;
 
-constexpr double eye_px = 0.12;            // below visible size
-constexpr std::size_t max_nodes = 40'000;  // per row of strokes: about 12 bytes each
+constexpr double eye_px = 0.12;            // px: smaller details are dropped, because they are invisible
+constexpr std::size_t max_nodes = 40'000;  // nodes per call of strokes(): about 12 bytes each
 constexpr double min_width_mm = 1e-4;
 
-/// Clips a -> b to the box (Liang-Barsky); false if it is outside.
+/// Clips the line from `a` to `b` to the box (Liang-Barsky); returns false if it is outside.
 bool clip(const Box& box, Spot& a, Spot& b) {
     double begin = 0, end = 1;
     const Spot delta{b.x - a.x, b.y - a.y};

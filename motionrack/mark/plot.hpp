@@ -32,7 +32,7 @@ class Plot {
     int height() const { return height_; }
     double width_mm() const { return width_ / scale_; }
 
-    /// Grid lines at steps of 1, 2 or 5, with labels in mm.
+    /// Returns grid lines at steps of 1, 2 or 5 times a power of ten, with labels in mm.
     std::string grid() const;
     std::string strokes(std::span<const StrokePoint> nodes, const char* style) const;
     std::string outline(const Box& box, const char* style) const;
@@ -49,7 +49,7 @@ class Plot {
     double scale_ = 1;  // px per mm
 };
 
-/// Formats a length in mm for people, as in "12 mm" or "40 µm".
+/// Formats a length in mm with a readable unit, such as "12 mm" or "40 µm".
 std::string shown_length(double mm);
 
 }  // namespace motionrack::mark

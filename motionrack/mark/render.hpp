@@ -1,4 +1,4 @@
-// Output of a result as a table, as pictures and as a page.
+// Renders the result of a marking job as a table, as pictures and as a report page.
 #pragma once
 
 #include <motionrack/mark/run.hpp>
@@ -10,7 +10,7 @@ namespace motionrack::mark {
 
 /// Returns the result as a table.
 std::string outcome_text(const MarkingJob& job, const MarkingOutcome& outcome);
-/// Returns a row per part of a job with [parts]; empty without.
+/// Returns a table with a row for each part of a job with [parts]; "" without [parts].
 std::string parts_text(const MarkingJob& job, const Marked& marked);
 
 /// Smallest field margin of a run, and its edge.
@@ -19,16 +19,17 @@ struct FieldMargin {
     const char* edge = "";  ///< "left", "right", "lower" or "upper"
 };
 FieldMargin margin_of(const MarkingOutcome& outcome, const Marked& marked);
-inline constexpr double min_margin_share = 0.05;  ///< relative to the field width: a smaller margin gives a warning
-/// Warnings about small margins.
+inline constexpr double min_margin_share = 0.05;  ///< fraction of the field width; a smaller margin gives a warning
+/// Returns warnings about small margins.
 std::vector<std::string> warnings_of(const MarkingOutcome& outcome);
 
-/// The part as drawn, with correction and without, the field, and the points of maximum deviation enlarged.
+/// Returns the pictures of a result: the part as drawn, with correction and without, the field, and the points of
+/// maximum deviation, enlarged.
 std::vector<trace::ReportPicture> pictures_of(const Prepared& prepared, const MarkingOutcome& outcome);
 /// Returns the pictures of pictures_of() on one sheet, as a standalone SVG file.
 std::string picture_svg(const Prepared& prepared, const MarkingOutcome& outcome);
 
-/// Data of the page. `text`: that of the job file.
+/// Returns the data of the report page. `text`: content of the job file.
 trace::ReportData report_of(const MarkingJob& job, const Prepared& prepared, const MarkingOutcome& outcome,
                             std::string_view text);
 

@@ -1,4 +1,4 @@
-// Report page of a marking job.
+// Makes the report page of a marking job.
 #include <fmt/format.h>
 
 #include <motionrack/mark/plot.hpp>

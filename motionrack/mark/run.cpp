@@ -64,10 +64,11 @@ Result<Quick> run_quick(const MarkingJob& job, const Prepared& prepared, double 
     return out;
 }
 
-/// Share of the progress for marking with and without correction; the rest is the search.
+/// Fraction of the progress when the runs with and without correction are finished; the rest is the search for the
+/// limit.
 constexpr double marked_at = 0.9;
 
-/// Maximum velocity factor at which everything fits.
+/// Searches for the maximum velocity factor at which the corrected position stays in the field and no start is lost.
 class FitSearch {
   public:
     FitSearch(const MarkingJob& job, const Prepared& prepared, const RunObserver& watch)
@@ -112,7 +113,7 @@ class FitSearch {
     Result<bool> fits(double factor, MarkingOutcome& out) {
         MOTIONRACK_TRY(const Quick quick, run_quick(job_, prepared_, factor, watch_));
         if (!quick.fits()) out.starts_limit = quick.beyond_mm <= 0;
-        // About twenty runs, fewer if the limit is near.
+        // The search takes about twenty runs, fewer if the limit is near a factor of 1.
         ++tried_;
         if (watch_.progress) watch_.progress(marked_at + (1 - marked_at) * tried_ / (tried_ + 10));
         return quick.fits();
@@ -145,7 +146,7 @@ Result<Marked> mark_once(const MarkingJob& job, const Prepared& prepared, const 
         },
         watch));
     const std::int64_t end = card.tick() - line->begin();
-    // The mirrors and the laser settle a little later.
+    // Runs a little longer, until the mirrors and the laser have settled.
     card.run_until(card.tick() +
                        static_cast<std::int64_t>((job.galvo.ideal_mirrors ? 0 : job.galvo.dead_time_us / 10 + 200) +
                                                  job.laser.off_delay_us / 10) +
@@ -176,7 +177,7 @@ bool moves(const parts::ConveyorSettings& track) {
                        [](const parts::VelocityPoint& p) { return p.velocity != 0; });
 }
 
-/// With waits, everything must be marked at its intended position.
+/// Returns the error of a job with waits whose belt is so fast that marks leave the field before they are finished.
 Result<void> refuse_too_fast(const MarkingJob& job, const Quick& now, const MarkingOutcome& out) {
     const std::string fast = job.belt.profile.empty() ? fmt::format("{:g} mm/s", std::fabs(job.belt.velocity))
                                                       : "the velocities of the profile";

@@ -44,8 +44,8 @@ constexpr const char* name_of(PartOutcome fate) {
 struct PartMarked {
     PartOutcome fate = PartOutcome::marked;
     std::int64_t number = 0;        ///< value of {n}, if marked
-    std::size_t drawing = 0;        ///< Prepared::of; of a lost part the drawing it would have got
-    double begin_s = 0, end_s = 0;  ///< list execution; a lost part: the instant
+    std::size_t drawing = 0;        ///< index for Prepared::of(); a lost part: the drawing that it would have got
+    double begin_s = 0, end_s = 0;  ///< execution of the list; a lost part: both are the instant of its start
     parts::Deviation deviation;     ///< in part coordinates
     double marked_mm = 0;
     std::size_t first_point = 0, points = 0;  ///< in Marked::points
@@ -59,8 +59,8 @@ struct Marked {
     std::vector<parts::MarkedPoint> points;  ///< each in the coordinates of its part
     std::vector<PartMarked> parts;           ///< in the order of arrival; one if the job has no [parts]
     std::uint64_t lost_points = 0;
-    double seconds = 0;  ///< until the card is idle
-    double duty = 0;     ///< fraction of it with the gate open
+    double seconds = 0;  ///< duration until the card is idle, s
+    double duty = 0;     ///< fraction of `seconds` with the gate open
     double marked_mm = 0, energy_j = 0;
     Box reach;                         ///< mm in the field: range of the corrected list without clipping
     std::vector<FieldSample> course;   ///< at equal steps, about max_field_samples
@@ -76,24 +76,24 @@ struct Marked {
 };
 
 struct MarkingOutcome {
-    Marked on;                  ///< with the settings of the job
+    Marked on;                  ///< marks with the settings of the job
     std::optional<Marked> off;  ///< the same without correction; empty if the job has none
     double drawing_mm = 0;
     std::size_t strokes = 0, elements = 0;
-    bool drawing_in_field = true;  ///< without the movement of the part
+    bool drawing_in_field = true;  ///< the drawing of a stationary part fits into the field; true with waits
     /// Maximum velocity factor of the part before the corrected position leaves the field; empty without correction or
     /// movement. 0: the drawing does not fit even at standstill.
     std::optional<double> fits_factor;
     bool fits_any = false;      ///< fits at all tested velocities (up to 1000 times)
     bool starts_limit = false;  ///< limited by a lost start, not by the field
     Box field;                  ///< mm
-    bool waits = false;         ///< marks keep the job's margin from the field edge
+    bool waits = false;         ///< the job uses waits: marks keep its margin from the field edge
     std::vector<std::string> notes;
-    /// Without tracking, the drawing itself must lie in the field.
+    /// Returns true if the job tracks the part, or the drawing fits into the field without tracking.
     bool in_field() const { return off || drawing_in_field; }
 };
 
-/// Errors: as MarkingHost; refused if the belt is too fast for waits.
+/// Runs a job. Errors: those of MarkingHost; refused if waits are used and the belt is too fast for them.
 Result<MarkingOutcome> run_job(const MarkingJob& job, const Prepared& prepared, const RunObserver& watch = {});
 
 }  // namespace motionrack::mark

@@ -9,7 +9,7 @@ namespace motionrack::mark {
 
 namespace {
 
-/// Strokes as pairs x y separated by blanks; a and b mean y = -1 and -2.
+/// A letter: its strokes as pairs x y, separated by blanks; `a` and `b` stand for y = -1 and y = -2.
 struct Glyph {
     char letter;
     std::string_view strokes;

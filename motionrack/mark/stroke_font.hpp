@@ -7,10 +7,9 @@
 
 namespace motionrack::mark {
 
-/// Draws the lines ('
-/// ') of a text downwards, the first baseline at y = 0, from x = 0 to the right, with capitals `height_mm` high.
-/// Letters: A-Z, a-z, 0-9, blank and . , : ; ! ? - + = / * ( ) # % & _ ' ". Errors: an unsupported character, with its
-/// index in the text.
+/// Draws a text, whose lines are separated by a line feed, from x = 0 to the right with capitals `height_mm` high: the
+/// first baseline is at y = 0, the others below it. Letters: A-Z, a-z, 0-9, blank and . , : ; ! ? - + = / * ( ) # % & _
+/// ' ". Errors: an unsupported character, with its index in the text.
 Result<Drawing> text_drawing(std::string_view text, double height_mm);
 
 /// Replaces {n} in a text by the number, {n:05} by the number zero-padded to 5 digits (1 to 18). Errors: another use of

@@ -1,4 +1,4 @@
-// Element tree of an SVG file: drawn elements, their transforms, and the positions of errors.
+// Reads the element tree of an SVG file: draws its elements with their transforms, and reports errors with positions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -75,7 +75,7 @@ class SvgReader {
         return static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
     }
 
-    /// Returns the position of an attribute value in the text; that of the element if not found.
+    /// Returns the index of an attribute's value in the text; that of the element if the value is not found.
     std::size_t value_of(const pugi::xml_node& node, std::string_view name) const {
         const std::size_t begin = offset(node);
         char quote = '\0';
@@ -103,7 +103,7 @@ class SvgReader {
                      fmt::format("{} of {}: {}", attribute, short_of(node.name()), error.message));
     }
 
-    /// A length with its unit; `mm_unit`: meaning of a bare number. Empty if the attribute is missing.
+    /// A length with its unit, as read by length(), which returns nullopt if the attribute is missing.
     struct Length {
         double value = 0;
         double mm = 0;  ///< mm per unit; 0: no unit given
@@ -132,7 +132,8 @@ class SvgReader {
         return found->mm == 0 ? found->value : found->value * found->mm / unit_mm_;
     }
 
-    /// Transform from user units to mm, Y up, with the lower left corner of the picture at 0, 0.
+    /// Returns the transform from user units to mm, Y up, with the lower left corner of the picture at 0, 0. Sets
+    /// unit_mm_, the mm of a user unit.
     Result<Affine> size_of(const pugi::xml_node& root) {
         MOTIONRACK_TRY(const std::optional<Length> width, length(root, "width"));
         MOTIONRACK_TRY(const std::optional<Length> height, length(root, "height"));
@@ -157,7 +158,7 @@ class SvgReader {
         return Affine{unit_mm_, 0, 0, -unit_mm_, -low_x * unit_mm_, (low_y + high) * unit_mm_};
     }
 
-    /// Checks that no style property would change its lines.
+    /// Rejects an element with a property that would change its lines but is not supported.
     Result<void> drawable(const pugi::xml_node& node) const {
         const std::optional<Unsupported> found = unsupported(node);
         if (!found) return {};
@@ -166,7 +167,7 @@ class SvgReader {
                      fmt::format("{} of {}: this is not supported; make plain paths of it in the editor", what,
                                  short_of(node.name())));
     }
-    /// Style sheets use selectors, which are not supported: rejects a sheet that could change the lines.
+    /// Rejects a style sheet that could change the lines: selectors are not supported.
     Result<void> sheets(const pugi::xml_node& node, int depth) const {
         if (depth > max_groups) return {};
         for (const pugi::xml_node child : node.children()) {

@@ -15,7 +15,7 @@ namespace motionrack::mark {
 
 inline constexpr std::size_t max_svg_bytes = 50'000'000;
 
-/// Errors: invalid_input, with line and column of the element or of the character in its data.
+/// Reads an SVG file. Errors: invalid_input, with line and column of the element or of the character in its data.
 Result<Drawing> read_svg(std::string_view text, const std::string& file, double tolerance_mm = default_tolerance_mm);
 
 /// Error in path data or a transform, with its character index.
@@ -23,7 +23,7 @@ struct DataError {
     std::size_t at = 0;
     std::string message;
 };
-/// Draws path data ("M 0 0 L 10 0 ..."). All commands of SVG 1.1, absolute and relative.
+/// Draws path data ("M 0 0 L 10 0 ..."). Supports all commands of SVG 1.1, absolute and relative.
 tl::expected<void, DataError> draw_path(std::string_view data, Pen& pen);
 /// Reads a transform attribute, such as "translate(1 2) rotate(30)".
 tl::expected<Affine, DataError> read_transform(std::string_view data);

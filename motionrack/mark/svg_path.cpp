@@ -1,4 +1,4 @@
-// SVG path data and transforms.
+// Parses SVG path data and transforms.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ Spot mirrored(Spot at, Spot control) {
     return {2 * at.x - control.x, 2 * at.y - control.y};
 }
 
-/// Converts endpoints to the centre, as in the SVG implementation notes on arcs.
+/// Draws an SVG arc: converts its end points to the centre as in the SVG implementation notes.
 void arc(Pen& pen, double rx, double ry, double turn_deg, bool large, bool sweep_positive, Spot to) {
     const Spot from = pen.at();
     rx = std::fabs(rx), ry = std::fabs(ry);

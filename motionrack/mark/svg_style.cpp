@@ -55,7 +55,7 @@ std::optional<Unsupported> unsupported(const pugi::xml_node& node) {
         if (!value.empty() && value != "none" && value != "inherit")
             return Unsupported{name, !in_style(node, name).empty()};
     }
-    // As an attribute, a transform is supported.
+    // A transform is supported as an attribute, but not as a style property.
     if (const std::string_view value = in_style(node, "transform"); !value.empty() && value != "none")
         return Unsupported{"transform", true};
     return std::nullopt;

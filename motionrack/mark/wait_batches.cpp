@@ -27,7 +27,7 @@ struct Reach {
     void take(double v) { low = std::min(low, v), high = std::max(high, v); }
 };
 
-/// Points of a stroke: ends, and those of its arcs' chords.
+/// Calls `take` with the start of a stroke and the end of each of its lines and of the chords of its arcs.
 template <class Take>
 void each_point(const Stroke& stroke, const Take& take) {
     take(stroke.from);
@@ -40,7 +40,8 @@ Reach reach_of(const Stroke& stroke, Spot direction) {
     return out;
 }
 
-/// Parameters (`at` 0 .. 1) at which the element crosses the planes direction * p = n * cell, in order.
+/// Returns the parameters (0 .. 1 along the element) at which it crosses the planes direction * p = origin + n * cell,
+/// in order.
 std::vector<double> crossings(Spot at, const Element& e, Spot direction, double origin, double cell) {
     std::vector<double> out;
     const auto planes = [&](double low, double high, const auto& found) {
@@ -66,7 +67,7 @@ std::vector<double> crossings(Spot at, const Element& e, Spot direction, double 
     return out;
 }
 
-/// Cuts the stroke at the planes.
+/// Cuts the stroke at the planes of crossings(), and appends the pieces to `out`.
 void cut(const Stroke& stroke, Spot direction, double origin, double cell, std::vector<Stroke>& out) {
     constexpr double min_part = 1e-6;  // fraction of an element
     out.push_back({stroke.from, {}});
@@ -91,7 +92,7 @@ void cut(const Stroke& stroke, Spot direction, double origin, double cell, std::
     }
 }
 
-/// Belt distances at which the whole stroke is in the field; low > high: none.
+/// Returns the belt distances between which the whole stroke is in the field; low > high: there are none.
 Reach ways_of(const Stroke& stroke, const Box& field, Spot movement) {
     Reach out{-infinite, infinite};
     const auto axis = [&](double p, double v, double low, double high) {

@@ -1,4 +1,4 @@
-// Calibration: numbers of the formulas, and the actual settings of a simulated machine.
+// Tests of calibrations: the numbers of the formulas, and the settings that a simulated machine really has.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,8 +69,8 @@ TEST(Calibration, UncertaintiesAreThoseOfRepeatedTrials) {
 }
 
 TEST(Calibration, LagFromACrossMarkedAtTwoVelocitiesIsThatOfTheMirrors) {
-    // The vertical line of the cross, marked on the simulated belt; its offset on the part gives the delay of the
-    // mirrors.
+    // Marks the vertical line of the cross on the simulated belt and returns its offset on the part, mm, against the
+    // movement; the delay of the mirrors causes it.
     const auto shift = [](double velocity, int tracking_error_us) {
         JobRead read = read_job(
             "[drawing]\nsvg = 's'\nanchor = 'origin'\n[galvo]\nideal_mirrors = false\ndead_time_us = "

@@ -1,4 +1,4 @@
-// Seeds of the fuzz targets and many damaged copies of them; mark_fuzz.hpp contains the invariants.
+// Runs the fuzz targets with their seeds and many damaged copies of them; mark_fuzz.hpp lists the invariants.
 //
 // The environment variables MOTIONRACK_SEED and MOTIONRACK_JOBS select another and a longer run.
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ std::vector<std::string> corpus(const char* name) {
     return out;
 }
 
-/// Changes, removes or duplicates a few bytes, or inserts some from another seed.
+/// Damages a text one to four times: changes, removes or duplicates a few bytes, or inserts some from another seed.
 std::string damaged(std::string text, const std::vector<std::string>& seeds, motionrack::fuzz::Random& random) {
     for (std::uint32_t n = random.below(4) + 1; n > 0 && !text.empty(); --n) {
         const std::size_t at = random.below(static_cast<std::uint32_t>(text.size())), length = random.below(12) + 1;

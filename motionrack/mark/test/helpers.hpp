@@ -1,4 +1,4 @@
-// Runs jobs from their text.
+// Functions that run marking jobs given as text.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ inline MarkingOutcome run(const MarkingJob& job, const std::string& svg = square
     return *out;
 }
 
-/// Returns the reason why the job does not run.
+/// Returns the message with which prepare() or run_job() refuses the job; "" if it runs.
 inline std::string refusal(const MarkingJob& job, const std::string& svg = square_svg) {
     const Result<Prepared> prepared = prepare(job, one_file(svg));
     if (!prepared) return prepared.error().text();

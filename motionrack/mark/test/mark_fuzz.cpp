@@ -1,4 +1,4 @@
-// Any bytes as drawings and jobs.
+// Reads any bytes as drawings and jobs, and checks the invariants.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace motionrack::mark::fuzz {
 
 namespace {
 
-constexpr double max_run_s = 0.02;  // of marks and of a marked drawing: runs are a hundred times slower with sanitizers
+// Longer drawings are not run, because sanitizers make a run a hundred times slower.
+constexpr double max_run_s = 0.02;  // s of marking
 
 bool finite(Spot p) {
     return std::isfinite(p.x) && std::isfinite(p.y);
@@ -45,7 +46,8 @@ std::string picture_problem(const std::string& text) {
     return "";
 }
 
-/// Runs the job for a short time.
+/// Runs the job, whose observer stops it at its first poll, and renders its result. Returns the violated invariant, or
+/// "".
 std::string run_problem(const MarkingJob& job, const Prepared& prepared, std::string_view text) {
     if (length_of(prepared.drawing) > max_run_s * job.pace.mark_speed_mm_s) return "";
     const Result<MarkingOutcome> out = run_job(job, prepared, {{}, [] { return true; }});

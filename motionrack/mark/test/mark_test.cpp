@@ -1,4 +1,4 @@
-// Marking jobs from their text to the part.
+// Tests of marking jobs, from the text of the job to the marks on the part.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ TEST(MarkJob, TheReferenceSquareIsRightWithCorrectionAndShearedWithout) {
 TEST(MarkJob, RecordsTheUsedFieldAndThePathOfTheSpot) {
     const MarkingOutcome out = run(job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n"));
     EXPECT_NEAR(out.field.high.x, 60.57, 0.01);
-    // The corners are marked after 20, 40, 60 and 80 ms: the second at 10 + 4, the last at 8 mm.
+    // At 100 mm/s the corners are marked after 20, 40, 60 and 80 ms: the second at X 10 + 4 mm, the last at X 8 mm.
     EXPECT_NEAR(out.on.reach.high.x, 14, 0.05);
     EXPECT_NEAR(out.on.reach.low.x, 0, 0.01);
     EXPECT_NEAR(out.off->reach.high.x, 10, 1e-9);
@@ -77,7 +77,8 @@ TEST(MarkJob, TheMaximumBeltVelocityFitsAndASlightlyHigherOneDoesNot) {
     MarkingJob job = job_of(mark_belt_job + "[fly]\nmode = 'encoder'\n");
     const MarkingOutcome out = run(job);
     ASSERT_TRUE(out.fits_factor);
-    // 0.08 s and slightly more until the last corner; the field ends at 60.57 mm.
+    // The last corner is marked slightly more than 0.08 s after the start, at the belt travel; the field ends at 60.57
+    // mm.
     EXPECT_GT(*out.fits_factor, 6);
     EXPECT_LT(*out.fits_factor, 9);
     job.belt.velocity = 100 * *out.fits_factor;

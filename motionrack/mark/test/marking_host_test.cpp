@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Squares of 10 mm that take slightly more than 80 ms, on parts at 200 mm/s.
+/// A job of squares of 10 mm, each marked in slightly more than 80 ms, on parts at 200 mm/s.
 std::string squares(const std::string& parts, const std::string& fly = "mode = 'encoder'") {
     return "[drawing]\nsvg = 's'\nanchor = 'origin'\n[pace]\nmark_speed_mm_s = 500\n[belt]\nvelocity_mm_s = "
            "200\ncounts_per_mm "
@@ -31,7 +31,7 @@ TEST(MarkingHostTest, EachPartIsMarkedATrackDelayBehindItsEdge) {
         EXPECT_EQ(part.deviation.missing_mm, 0);
     }
     EXPECT_LE(out.on.deviation.max_mm, 0.005);
-    // Without correction each part has the corners of the formula: 200 mm/s for 20 ms gives 4 mm.
+    // Without correction a corner marked 20 ms after another is 200 mm/s * 20 ms = 4 mm off, the last one 16 mm.
     ASSERT_TRUE(out.off);
     for (const PartMarked& part : out.off->parts) EXPECT_NEAR(part.deviation.max_mm, 16, 0.1);
 }
@@ -68,7 +68,8 @@ TEST(MarkingHostTest, PartsAroundATableAreMarkedInMotion) {
 }
 
 TEST(MarkingHostTest, AStartWhileAListRunsIsLostWithItsInstant) {
-    // 10 mm take 50 ms: every second part arrives while the previous square is being marked.
+    // The parts are 10 mm apart, which takes 50 ms: every second part arrives while the previous square is being
+    // marked.
     const MarkingJob job = job_of(squares("count = 6\nspacing_mm = 10\ntrack_delay_mm = 20\n"));
     const MarkingOutcome out = run(job);
     ASSERT_EQ(out.on.parts.size(), 6u);
@@ -80,7 +81,7 @@ TEST(MarkingHostTest, AStartWhileAListRunsIsLostWithItsInstant) {
     }
     EXPECT_NEAR(out.on.deviation.missing_mm, 120, 1e-9);
     EXPECT_THAT(outcome_text(job, out), HasSubstr("part 2: its start at 0.1500"));
-    // It fits if the spacing of the parts takes longer than a square.
+    // All parts are marked if moving by the spacing of the parts takes longer than marking a square.
     ASSERT_TRUE(out.fits_factor);
     EXPECT_TRUE(out.starts_limit);
     EXPECT_NEAR(*out.fits_factor * 200, 10 / (out.on.parts[0].end_s - out.on.parts[0].begin_s), 4)
@@ -122,7 +123,7 @@ TEST(MarkingHostTest, EachPartHasItsSerialNumber) {
         EXPECT_LE(out.on.parts[i].deviation.max_mm, 0.004) << i;
         EXPECT_EQ(out.on.parts[i].deviation.missing_mm, 0) << i;
     }
-    // The third part received another drawing than intended for the second.
+    // The third part got its own drawing, not that of the second.
     const Prepared prepared = *prepare(job, one_file(""));
     const PartMarked& third = out.on.parts[2];
     const auto points = std::span(out.on.points).subspan(third.first_point, third.points);

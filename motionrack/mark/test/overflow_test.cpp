@@ -50,7 +50,7 @@ TEST(OverflowLog, HasTheTicksAtWhichTheFlagsBecomeSet) {
     ASSERT_TRUE(card.run_to_rest(1'000'000, &sink));
     log.finish(card.tick());
 
-    // The same card, queried after each tick: reading clears bits 0 to 3.
+    // A second card with the same list, queried after each tick; reading clears bits 0 to 3 of the marking info.
     struct Seen {
         int bit;
         std::int64_t from, to;

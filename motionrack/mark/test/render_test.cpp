@@ -1,4 +1,4 @@
-// Pictures, tables and the page of a marking job.
+// Tests of the pictures, tables and the report page of a marking job.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@ std::string refusal(const std::string& text) {
     const Result<Drawing> out = read_svg(text, "d.svg");
     return out ? "not refused" : out.error().text();
 }
-/// Without a size, user units are mm and Y is mirrored about 0.
+/// Reads a path without a size: user units are mm, and Y is mirrored about 0.
 Drawing path(const std::string& d) {
     return read("<svg><path d=\"" + d + "\"/></svg>");
 }

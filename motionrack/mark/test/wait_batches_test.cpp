@@ -1,4 +1,4 @@
-// Drawings longer than the field, and sources of the movement that are late or only guess it.
+// Tests of drawings longer than the field, and of position sources that are late or assume a constant velocity.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A frame 300 mm long and 20 mm wide with a circle in it; the field has 121 mm.
+/// A frame 300 mm long and 20 mm wide with a circle in it; the field is 121 mm wide.
 constexpr const char* long_svg = R"(<svg><rect x='-380' y='-10' width='300' height='20'/>)"
                                  R"(<circle cx='-200' cy='0' r='8'/><path d='M-300 -5 L-160 5'/></svg>)";
 std::string long_job(const std::string& belt, const std::string& fly) {
@@ -74,7 +74,7 @@ TEST(WaitBatches, ADrawingLongerThanTheFieldIsMarkedInMotion) {
 }
 
 TEST(WaitBatches, AFrameIsReadyWhenItsLastEdgeHasEnteredTheField) {
-    // The trailing edge is at -380 mm: 380 - 59.57 mm of way at 150 mm/s.
+    // The trailing edge, at -380 mm, has to move by 380 - 59.57 mm into the field, at 150 mm/s.
     const MarkingOutcome out = run(job_of(long_job("velocity_mm_s = 150", "mode = 'encoder'")), long_svg);
     EXPECT_GT(out.on.seconds, (380 - 59.57) / 150);
     EXPECT_LT(out.on.seconds, (380 - 59.57) / 150 + 0.1);
@@ -91,7 +91,7 @@ TEST(WaitBatches, ABeltThatIsTooFastIsRefusedWithTheVelocityThatFits) {
     EXPECT_EQ(refusal(job, long_svg), "");
     job.belt.velocity = fits * 1.001;
     EXPECT_NE(refusal(job, long_svg), "");
-    // A slower belt says the same velocity.
+    // A job with half the velocity finds the same limit.
     job.belt.velocity = fits / 2;
     const MarkingOutcome slow = run(job, long_svg);
     EXPECT_NEAR(*slow.fits_factor * job.belt.velocity, fits, 0.02 * fits);
@@ -136,7 +136,8 @@ TEST(MarkSources, ASimulatedEncoderIsRightOnlyWhileTheBeltHasItsVelocity) {
     const MarkingOutcome encoder = run(job_of(job + "mode = 'encoder'\n"));
     EXPECT_LE(encoder.on.deviation.max_mm, 0.003);
     const MarkingOutcome simulated = run(job_of(job + "mode = 'simulated'\nsimulated_velocity_mm_s = 100\n"));
-    // 40 ms from 100 to 60 mm/s: 0.04 * 20 = 0.8 mm less way than supposed at 80 ms.
+    // The belt decelerates from 100 to 60 mm/s in 40 ms, so at 80 ms it is 0.04 s * 20 mm/s = 0.8 mm behind the assumed
+    // position.
     EXPECT_NEAR(simulated.on.deviation.max_mm, 0.8, 0.08);
     EXPECT_THAT(errors_of(job + "mode = 'simulated'\n"), HasSubstr("simulated_velocity in [fly]"));
     EXPECT_THAT(errors_of(job + "mode = 'encoder'\nsimulated_velocity_mm_s = 100\n"), HasSubstr("j.toml:8:27"));
@@ -152,7 +153,8 @@ TEST(MarkSources, ALateMcBspSourceIsCompensatedAtConstantVelocity) {
     EXPECT_LE(run(job_of(job(belt, "offset_us = 1500"))).on.deviation.max_mm, 0.005);
     EXPECT_GT(run(job_of(job(table, ""))).on.deviation.max_mm, 0.05);
     EXPECT_LE(run(job_of(job(table, "offset_us = 1500"))).on.deviation.max_mm, 0.004);
-    // What is left when the velocity changes: 1000 mm/s2 for 40 ms are 40 mm/s more, over 1.5 ms.
+    // An error remains while the velocity changes: after 40 ms at 1000 mm/s2 it is 40 mm/s higher, which is 0.06 mm in
+    // 1.5 ms.
     const std::string rising = "[belt]\nprofile = [[0, 200], [0.04, 200], [0.08, 240]]";
     EXPECT_NEAR(run(job_of(job(rising, "offset_us = 1500"))).on.deviation.max_mm, 0.06, 0.008);
     EXPECT_THAT(errors_of(job(belt, "tracking_error_us = 100")), HasSubstr("encoders only"));
