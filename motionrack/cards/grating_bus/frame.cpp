@@ -1,4 +1,4 @@
-// CRC and comparisons of frames.
+// Computes the CRC of frames and compares frames.
 #include <zlib.h>
 
 #include <algorithm>

@@ -16,7 +16,7 @@
 
 namespace motionrack::grating_bus {
 
-inline constexpr int max_scales = 128;  ///< the seven lines of addr
+inline constexpr int max_scales = 128;  ///< scales of a bus: the seven lines of addr select 0 .. 127
 
 /// Positions of one instant. Trivially copyable; counts and addresses beyond `words` are undefined.
 struct Frame {
@@ -34,7 +34,7 @@ struct Frame {
 
 /// Computes the CRC-32 of the content of a frame.
 std::uint32_t crc_of(const Frame& frame);
-/// True if the CRC matches the content, there are 1 to 128 words, and each address is 0 to 127.
+/// Returns true if the CRC matches the content, the frame has 1 to 128 words, and each address is 0 to 127.
 bool sound(const Frame& frame);
 /// Returns true if two frames have equal contents, including sequence and time.
 bool same(const Frame& a, const Frame& b);
@@ -47,18 +47,18 @@ constexpr std::int64_t unwrapped(std::int64_t before, std::uint32_t now) {
     return before + static_cast<std::int32_t>(now - static_cast<std::uint32_t>(before));
 }
 
-/// Waits of the host's sequence, and the clock of its logic.
+/// Wait times of the host's sequence, and the clock period of its logic.
 struct BusTiming {
-    Duration t1 = nanoseconds(20);  ///< the decoder latches (S1, S7)
-    Duration t2 = nanoseconds(30);  ///< address to stable data (S2, S8)
-    Duration t3 = nanoseconds(30);  ///< the data is latched (S3, S9)
+    Duration t1 = nanoseconds(20);  ///< T1: the decoder latches (S1), pause between words (S7)
+    Duration t2 = nanoseconds(30);  ///< T2: wait from the address to stable data (S2, S8)
+    Duration t3 = nanoseconds(30);  ///< T3: wait while the card stores the data (S3, S9)
     Duration clock = nanoseconds(10);
 
-    /// Time from the sample of one word to that of the next.
+    /// Returns the time from the sample of one word to that of the next.
     constexpr Duration word_time() const { return t1 + t2 + t3 + 3 * clock; }
-    /// Time from entering S1 to re-entering S0 with `words` (1 .. 128) scales.
+    /// Returns the time from entering S1 to re-entering S0 with `words` (1 .. 128) scales.
     constexpr Duration frame_time(int words) const { return words * (t1 + t2 + t3) + (3 * words + 1) * clock; }
-    /// Time from entering S1 to the sample of word `k`.
+    /// Returns the time from entering S1 to the sample of word `k`.
     constexpr Duration sample_at(int k) const { return k * word_time() + t1 + t2; }
     friend constexpr bool operator==(const BusTiming&, const BusTiming&) = default;
 };

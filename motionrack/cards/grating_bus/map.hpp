@@ -109,7 +109,7 @@ inline constexpr StateInfo states[] = {
     {"S11", "all scales are read"},
     {"S12", "emits the pulse frame_done"},
 };
-/// Conditions of the only state with two exits.
+/// Conditions of S5, the only state with two exits.
 inline constexpr std::string_view words_left = "scales are left", all_read = "all are read";
 inline constexpr TransitionInfo transitions[] = {
     {"S0", "S1", "pulse or edge"}, {"S1", "S2", "after T1"},    {"S2", "S3", "after T2"},  {"S3", "S4", "after T3"},
@@ -154,13 +154,13 @@ inline constexpr ConnectorPin connector_pins[] = {
     {"?205", "P2C5", "P2D5", "addr", "? for P, 0 for C or D"},
 };
 
-/// Levels on one side of the level shifters.
+/// Voltage levels on one side of the level shifters.
 struct SignalLevels {
     std::string_view side;
     std::string_view family;
     double supply_v;
-    double max_low_in_v;   ///< an input reads a lower voltage as low
-    double min_high_in_v;  ///< and a higher voltage as high
+    double max_low_in_v;   ///< an input reads a voltage below it as low
+    double min_high_in_v;  ///< an input reads a voltage above it as high
 };
 inline constexpr SignalLevels signal_levels[] = {
     {"bus, connector P2", "TTL", 5.0, 0.8, 2.0},
@@ -184,7 +184,7 @@ inline constexpr RegisterInfo decoder_registers[] = {
 };
 static_assert(declared<registers_flaw(decoder_registers)>());
 
-/// Names of numbered pins: "a0" .. "a127".
+/// Name of a numbered pin: "a0" .. "a127".
 struct PinName {
     char text[5] = {};
     constexpr std::string_view view() const {
@@ -205,7 +205,7 @@ consteval std::array<PinName, 2 * max_scales> scale_pin_names() {
     return out;
 }
 inline constexpr std::array<PinName, 2 * max_scales> scale_pins = scale_pin_names();
-/// Pins of the decoder card; a*, b*: lines A and B of each scale n.
+/// Pins of the decoder card; a* and b* stand for the lines A and B of each scale n.
 inline constexpr PinInfo decoder_pins[] = {
     {"a*", PinDirection::input, false, "scale n, line A"},
     {"b*", PinDirection::input, false, "scale n, line B"},
@@ -248,7 +248,7 @@ consteval Field field(std::string_view reg, std::string_view name) {
     return {mask_of(register_named(map::registers, reg), name)};
 }
 
-/// The states of the sequence by their numbers.
+/// States of the sequence by their numbers.
 enum class State : std::uint8_t { S0, S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11, S12 };
 
 /// Returns the map of the card (registers, states, pins), for documents, inspectors and traces.

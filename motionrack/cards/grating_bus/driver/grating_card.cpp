@@ -1,4 +1,4 @@
-// Register accesses, one per statement.
+// Accesses the registers of a card: one access per statement.
 #include <fmt/format.h>
 
 #include <motionrack/cards/grating_bus/driver/grating_card.hpp>

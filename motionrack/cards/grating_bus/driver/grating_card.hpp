@@ -18,19 +18,19 @@ namespace motionrack::grating_bus {
 struct CardInfo {
     bool host = false;
     bool checks = false;
-    bool wrong_direction = false;                 ///< a level shifter does not fit the role
+    bool wrong_direction = false;                 ///< the direction of a level shifter does not match the role
     int scales = 0;                               ///< N
     int first = 0;                                ///< address of the first scale
-    std::array<std::uint8_t, max_scales> list{};  ///< addresses of the card's own list
+    std::array<std::uint8_t, max_scales> list{};  ///< addresses of the card's own list, in the order of the words
     BusTiming timing;
     Duration period{};
-    /// The card's own list: address of the scale of each word.
+    /// Returns the address of the scale of each word in the card's own list.
     std::span<const std::uint8_t> addresses() const { return {list.data(), static_cast<std::size_t>(scales)}; }
 };
 
 /// Bus errors since the last clear_errors(), each at most 65,535.
 struct CardErrors {
-    std::uint16_t broken = 0;  ///< unpublished frames
+    std::uint16_t broken = 0;  ///< bad frames, which were not published
     std::uint16_t missed_words = 0;
     std::uint16_t alien = 0;
     std::uint16_t lines = 0;
@@ -43,7 +43,7 @@ struct Reading {
     Frame frame;
     std::array<std::int64_t, max_scales> positions{};  ///< counts, extended beyond 32 bits from reading to reading
     std::span<const std::int64_t> counts() const { return {positions.data(), frame.words}; }
-    /// Address of the scale of each word, 0 .. 127, as the host addressed them.
+    /// Returns the address of the scale of each word, 0 .. 127, as the host put it on the bus.
     std::span<const std::uint8_t> addresses() const { return {frame.addresses.data(), frame.words}; }
 };
 
@@ -64,7 +64,7 @@ class GratingCard {
     /// next reading.
     void set_position(int n, std::int64_t count) { before_[static_cast<std::size_t>(n)] = count; }
 
-    /// Address of the scale of each word of the frame read last; empty before the first frame.
+    /// Returns the address of the scale of each word of the frame read last; empty before the first frame.
     std::span<const std::uint8_t> addresses() const { return {addresses_.data(), words_}; }
 
     bool stale();

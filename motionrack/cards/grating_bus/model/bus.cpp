@@ -1,4 +1,4 @@
-// Processing of one instant, state by state.
+// Processes the instants of a bus, state by state.
 #include <algorithm>
 #include <bit>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
@@ -88,7 +88,7 @@ void Bus::on_scheduled(Instant now) {
     schedule();
 }
 
-// 1. samples, 2. outputs, 3. edges: the consequences of each within the same instant.
+// Processes one instant in the order of RULES.md: the cards sample, then all outputs change, then edges act.
 void Bus::step(Instant now) {
     if (host_ >= 0 && cards_[static_cast<std::size_t>(host_)]->pulses_.next() == now && regular())
         return begin_span(now);
@@ -103,7 +103,7 @@ void Bus::settle(Instant now) {
     if (give_addresses()) drive();
     if (state_.lines.level(Line::clk) != 0 && state_.clk_was == 0) {
         for (Card* card : cards_) card->clock_rose(now);
-        drive();  // a card that was in reset may drive again
+        drive();  // a card in reset drives again from this edge on
     }
     state_.clk_was = state_.lines.level(Line::clk);
     for (std::size_t i = 0; i < decoders_.size(); ++i) decoders_[i]->follow(state_.lines, decoder_driver_[i], now);
@@ -114,7 +114,7 @@ void Bus::settle(Instant now) {
         state_.reported |= 1u << i;
         const Conflict& conflict = state_.lines.conflict(state_.lines.all_conflicts() - 1);
         const int high = std::countr_zero(conflict.high);
-        const std::uint64_t others = conflict.low & ~(std::uint64_t{1} << high);  // one driver may do both, bit by bit
+        const std::uint64_t others = conflict.low & ~(std::uint64_t{1} << high);  // not the one of `high`, if possible
         kernel_.report(id_, static_cast<std::uint16_t>(BusCondition::conflict), static_cast<std::int64_t>(i),
                        high * max_drivers + std::countr_zero(others != 0 ? others : conflict.low));
     }
@@ -191,7 +191,7 @@ void Bus::wanted(bool is_wanted, Instant now) {
     state_.wanted = is_wanted ? state_.wanted + 1 : state_.wanted - 1;
 }
 
-// A forced bit takes precedence over its whole line.
+// Forces the line of a wire that is forced or released. A forced wire of one bit overrides the wire of its whole line.
 void Bus::forced_changed(int changed, bool, int, Instant now) {
     if (changed == conflict_pin) return;
     interrupt_span(now);

@@ -35,15 +35,15 @@ class Bus final : public sim::Device {
     // ---- inspection
     const std::vector<Card*>& cards() const { return cards_; }
     const std::vector<Decoder*>& decoders() const { return decoders_; }
-    /// Name of driver `n` in the kernel.
+    /// Returns the name of driver `n` in the kernel.
     const std::string& driver_name(int n) const;
-    /// Names of all bus wires: "bus.clk", "bus.addr3" ..
+    /// Returns the names of all bus wires: "bus.clk", "bus.addr3" ..
     const std::vector<std::string>& wire_names() const { return wire_names_; }
     /// Returns the present level of a line, bit by bit.
     std::uint32_t level(Line line) const;
     const Lines& lines() const { return state_.lines; }
     sim::DeviceId id() const { return id_; }
-    /// True while the present frame is one step.
+    /// Returns true while the present frame is processed as one step.
     bool in_span() const { return state_.span != 0; }
     Instant span_start() const { return state_.start; }
 
@@ -54,15 +54,15 @@ class Bus final : public sim::Device {
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
     // ---- for the cards of the bus
-    /// Steps state by state from `now` on, at least until the next pulse.
+    /// Ends the span: from `now` on, steps state by state, at least until the next pulse.
     void interrupt_span(Instant now);
-    /// Calls interrupt_span() if a frame is in progress.
+    /// Calls interrupt_span() if a span is in progress whose frame is not published yet.
     void leave_frame(Instant now) {
         if (state_.span != 0 && state_.published == 0) interrupt_span(now);
     }
-    /// Reacts to a change of a card's or decoder's outputs, or of its next due instant.
+    /// Reacts to a change of the outputs of a card or a decoder, or of its next due instant.
     void look_again(Instant now);
-    /// Subscribes or unsubscribes a listener of a card's wire.
+    /// Records that a wire of a card has got or lost its listeners.
     void wanted(bool wanted, Instant now);
 
   private:
@@ -94,7 +94,7 @@ class Bus final : public sim::Device {
     void schedule();
     void show();
     const CardSettings& host() const { return cards_[static_cast<std::size_t>(host_)]->settings(); }
-    /// The decoder's present or last output at `now` of the span, and the instant of the next count.
+    /// The data that the decoder outputs at `now` within a span, and the instant at which it outputs the next count.
     struct DecoderOutput {
         std::uint32_t out;
         Instant next;

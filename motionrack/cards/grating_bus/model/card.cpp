@@ -1,4 +1,4 @@
-// Construction, wires and faults.
+// Constructs a card, and handles its wires, reset and faults.
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 #include <motionrack/cards/grating_bus/model/card.hpp>
 
@@ -34,7 +34,7 @@ void Card::wanted_changed(int, bool wanted, Instant now) {
 
 // ---- reset and faults
 
-// The buffers, the claim and the frame age survive a reset.
+// Resets the logic. The buffers, the claim and the age of the frame survive.
 void Card::reset() {
     frames_.abandon();
     CardState begun;

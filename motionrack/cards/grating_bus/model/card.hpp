@@ -1,4 +1,4 @@
-// The motion card: the logic that reads frames, two buffers, and the registers of the processor.
+// A motion card: the logic that reads frames, two buffers, and the registers of the processor.
 //
 //   bus ◄── shifters ──► [ sequence S0 .. S12 ] ──► [ A | B ] ──claim──► registers ──► processor
 //
@@ -24,13 +24,13 @@ namespace motionrack::grating_bus {
 class Bus;
 class Card;
 
-/// Listener for every frame of a card; it runs in virtual time.
+/// Listener for every frame of a card; the kernel's run calls it at the virtual instant of the event.
 class FrameListener {
   public:
     virtual ~FrameListener() = default;
-    /// The card enters S1: `now` is the frame's time.
+    /// Reports that the card enters S1; `now` is the time of the frame.
     virtual void began(const Card& card, Instant now) { (void)card, (void)now; }
-    /// The card enters S12 and has published `frame`.
+    /// Reports that the card enters S12 and has published `frame`.
     virtual void published(const Card& card, const Frame& frame, Instant now) = 0;
 };
 
@@ -53,20 +53,20 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     sim::WireId interrupt_wire() const { return wires_.interrupt(); }
     bool is_host() const { return settings_.role == CardRole::host; }
     bool is_remote() const { return settings_.role == CardRole::remote; }
-    /// The frame published last; nullptr: none yet, or it is being overwritten.
+    /// Returns the frame published last; nullptr: none yet, or it is being overwritten.
     const Frame* last() const { return frames_.last(); }
     bool stale() const { return age_.stale(); }
-    /// Instant from which the frame published last ages: its time; on a remote card, its arrival.
+    /// Returns the instant from which the frame published last ages: its time; on a remote card, its arrival.
     Instant held_since() const { return age_.held_since(); }
     bool off() const { return state_.off != 0; }
     Moment moment() const;
-    /// Counters of published frames, bad frames and errors.
+    /// Return the number of published frames, and of bad frames and errors.
     std::uint32_t frames() const { return frames_.published(); }
     using enum ErrorCountersState::Counter;
     std::uint16_t counter(ErrorCounter which) const { return errors_[which]; }
 
-    /// Delivers a frame of another crate's bus to a remote card, between two runs of the kernel. A frame with a wrong
-    /// CRC or a wrong number of scales is bad.
+    /// Delivers a frame of another crate's bus to a remote card, between two runs of the kernel. The card drops a frame
+    /// with a wrong CRC or a wrong number of scales as bad.
     void take(const Frame& frame, Instant now);
     /// Sets the analog output (0 .. 3) to `microvolts`, +-10 V at most.
     void put_out(int output, int microvolts) { wires_.put_out(output, microvolts); }
@@ -84,7 +84,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     struct SequenceActions;
 
     bool idle() const { return state_.fsm == State::S0 && state_.starts == never; }
-    /// Next instant at which the card is due.
+    /// Returns the next instant at which the card is due.
     Instant next() const;
 
     // sequence.cpp: called by the bus, in this order at one instant

@@ -1,4 +1,4 @@
-// Construction and levels of the wires.
+// Adds the wires of a card, and sets their levels.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/model/card_wires.hpp>
 

@@ -1,4 +1,4 @@
-// The wires of a card beside the bus: its state, the end of a frame, the interrupt, the analog outputs.
+// The wires of a card that are not bus lines: state, end of a frame, interrupt, analog outputs.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Messages for the conditions of cards and bus.
+// Formats the messages of the conditions of cards and bus.
 #include <fmt/format.h>
 
 #include <motionrack/cards/grating_bus/map.hpp>

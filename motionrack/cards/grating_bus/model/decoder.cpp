@@ -1,4 +1,4 @@
-// Latching and output of counts.
+// Latches the counts of a decoder and outputs them on the bus.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 #include <motionrack/cards/grating_bus/model/decoder.hpp>
@@ -32,7 +32,7 @@ void Decoder::latch(Instant now) {
     for (int n = 0; n < settings_.scales; ++n) state_.latched[static_cast<std::size_t>(n)] = count(n, now);
 }
 
-/// Sets the instant at which the addressed count is output; never for an address without a scale.
+/// Sets the instant at which the decoder outputs the addressed count; never for an address without a scale.
 void Decoder::ask(Instant now) {
     const Instant from = state_.frozen != 0 ? std::max(state_.asked, state_.valid) : state_.asked;
     state_.output = answers(state_.addr) ? std::max(now, from + settings_.output) : never;

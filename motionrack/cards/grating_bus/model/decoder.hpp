@@ -1,4 +1,4 @@
-// The decoder card: counts scales, freezes all counts at an instant, and outputs them one by one on the bus.
+// A decoder card: counts scales, freezes all counts at an instant, and outputs them one by one on the bus.
 //
 //   scale 0 ──► [ count ] ──hold──► [ latch ]──┐
 //   scale 1 ──► [ count ] ──hold──► [ latch ]──┼── addr, read_n ──► data
@@ -27,7 +27,7 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
 
     /// Connects scale `n` to this source; nullptr: to the wires a<n> and b<n>.
     void connect(int n, sim::PositionFunction* scale) { scales_[static_cast<std::size_t>(n)] = scale; }
-    /// Present count of scale `n` (0 .. scales - 1), unwrapped.
+    /// Returns the present count of scale `n` (0 .. scales - 1), not limited to 32 bits.
     std::int64_t position(int n, Instant now) const;
     std::uint32_t count(int n, Instant now) const { return static_cast<std::uint32_t>(position(n, now)); }
 
@@ -38,7 +38,7 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
 
     const DecoderSettings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
-    /// Always 1: the decoder has no interrupt.
+    /// Returns a wire that is always 1: the decoder has no interrupt.
     sim::WireId interrupt_wire() const { return int_wire_; }
 
     void on_scheduled(Instant) override {}
@@ -65,7 +65,7 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
     static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
 
     bool answers(std::uint32_t addr) const { return addr < static_cast<std::uint32_t>(settings_.scales); }
-    /// Latches all scales of a frame at one instant.
+    /// Latches the counts of all scales for a frame, at one instant.
     void latch(Instant now);
     /// Reacts to hold, read_n and addr.
     void follow(Lines& lines, int driver, Instant now);

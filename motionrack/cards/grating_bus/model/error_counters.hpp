@@ -1,4 +1,4 @@
-// The counters of a card's errors, and the reports of its conditions.
+// Counts the errors of a card, and reports its conditions.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class ErrorCounters {
         std::uint16_t& counter = state_.counters[which];
         counter = static_cast<std::uint16_t>(std::min<std::uint32_t>(0xFFFF, counter + by));
     }
-    /// Counts an edge in a frame; reports the first one since clear().
+    /// Counts an edge during a frame; reports the first one since clear().
     void count_overrun(std::uint32_t sequence) {
         count(ErrorCounter::overrun);
         if (state_.reported_overrun == 0) report(BusCondition::overrun, sequence);

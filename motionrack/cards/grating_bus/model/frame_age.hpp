@@ -1,4 +1,4 @@
-// The age of the frame published last: it is stale two periods after its time.
+// Age of the frame published last: it becomes stale two periods after its time.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class FrameAge {
         : state_(state), stale_(stale), settings_(settings), errors_(errors) {}
 
     bool stale() const { return stale_ != 0; }
-    /// Instant from which the frame ages.
+    /// Returns the instant from which the frame ages.
     Instant held_since() const { return state_.held_since; }
     /// Returns the instant at which the frame becomes stale; never: it is already stale.
     Instant next() const { return state_.stale_at; }

@@ -1,4 +1,4 @@
-// Begin, words and end of a frame.
+// Begins frames, stores their words and ends them.
 #include <motionrack/cards/grating_bus/model/frame_assembler.hpp>
 
 namespace motionrack::grating_bus {

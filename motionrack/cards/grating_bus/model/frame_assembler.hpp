@@ -1,4 +1,4 @@
-// The frames of a card: the present one, word by word, its end, and the two buffers.
+// Assembles the frames of a card: the present one word by word, its end, and the two buffers.
 //
 //   words ──► [ A | B ] ──publish──► the frame published last ──claim──► processor
 #pragma once
@@ -16,13 +16,13 @@ using Latched = std::array<std::uint32_t, max_scales>;
 
 class FrameAssembler {
   public:
-    /// Refers to its parts of the card's `state`; `settings` must outlive it.
+    /// Keeps references to parts of the card's `state`, which, like `settings`, must outlive this.
     FrameAssembler(CardState& state, const CardSettings& settings, ErrorCounters& errors);
 
     // ---- the present frame
     void begin(Instant time, std::uint32_t sequence);
     Instant time() const { return time_; }
-    /// Index of the present word.
+    /// Returns the index of the present word.
     int word() const { return word_; }
     void set_word(int word) { word_ = word; }
     /// Stores address and count of the present word.
@@ -32,7 +32,7 @@ class FrameAssembler {
 
     // ---- its faults
     void begin_check() { bad_word_ = 0; }
-    /// Adds an address; returns true if the frame did not have it.
+    /// Adds an address to the present frame; returns true if the frame did not have it.
     bool add_address(std::uint32_t address) { return taken_.add(address); }
     /// Counts the present word as bad, once.
     void spoil(ErrorCounter why, std::uint8_t bad);
@@ -49,18 +49,18 @@ class FrameAssembler {
     const Frame& publish();
 
     // ---- the buffers
-    /// Begins the frame of another crate's bus.
+    /// Returns the buffer for a frame of another crate's bus.
     Frame& begin_remote() { return buffers_.begin(); }
     void abandon() {
         if (buffers_.begun()) buffers_.abandon();
     }
-    /// The frame published last; nullptr: none yet, or it is being overwritten.
+    /// Returns the frame published last; nullptr: none yet, or it is being overwritten.
     const Frame* last() const { return buffers_.last(); }
-    /// The claimed frame; nullptr: none.
+    /// Returns the claimed frame; nullptr: none.
     const Frame* held() const { return buffers_.held(); }
     void claim() { buffers_.claim(); }
     void release() { buffers_.release(); }
-    /// Number of published frames.
+    /// Returns the number of published frames.
     std::uint32_t published() const { return published_; }
 
   private:

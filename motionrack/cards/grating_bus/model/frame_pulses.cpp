@@ -1,4 +1,4 @@
-// Instants and sequence numbers of the pulses.
+// Computes the instants and sequence numbers of pulses.
 #include <motionrack/base/hash_bits.hpp>
 #include <motionrack/cards/grating_bus/model/frame_pulses.hpp>
 

@@ -1,4 +1,4 @@
-// The pulses that start frames: those a host gives, and the edges that a slave sees, with their sequence number.
+// The pulses that start frames, with their sequence number: those that a host outputs, and the edges that a slave sees.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@ class FramePulses {
                 ErrorCounters& errors)
         : state_(state), sequence_(sequence), jitter_(jitter), settings_(settings), errors_(errors) {}
 
-    /// Number of the last pulse.
+    /// Returns the number of the last pulse.
     std::uint32_t sequence() const { return sequence_; }
-    /// Instant of a host's next pulse; never on other cards.
+    /// Returns the instant of a host's next pulse; never on other cards.
     Instant next() const { return state_.next; }
-    /// Instant at which the clk of a host falls.
+    /// Returns the instant at which the clk of a host falls.
     Instant fall() const { return state_.fall; }
     void set_fall(Instant at) { state_.fall = at; }
-    /// Instant of the next pulse without jitter.
+    /// Returns the instant of the next pulse without jitter.
     Instant grid() const { return settings_.offset + state_.number * settings_.period; }
 
     /// Schedules the first pulse of a host.

@@ -1,4 +1,4 @@
-// Levels by state, and the drivers of the lines.
+// Sets the levels of the bus lines by state, and drives the lines.
 #include <motionrack/cards/grating_bus/model/line_outputs.hpp>
 
 namespace motionrack::grating_bus {
@@ -37,7 +37,7 @@ void LineOutputs::drive(Lines& lines, int driver, bool off) const {
         else
             lines.leave(line, driver);
     };
-    const bool host = settings_.role == CardRole::host;  // a slave's logic leaves these pins open
+    const bool host = settings_.role == CardRole::host;  // a slave's logic does not drive these pins
     put(Line::clk, settings_.clock_out(), host ? state_.clk : 0);
     put(Line::hold, settings_.clock_out(), host ? state_.hold : 0);
     put(Line::read_n, settings_.clock_out(), host ? state_.read_n : 1);

@@ -1,4 +1,4 @@
-// Levels that the logic of a card drives on the lines, through its shifters.
+// The levels that the logic of a card drives on the bus lines, through its level shifters.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class LineOutputs {
     std::uint32_t clk() const { return state_.clk; }
     void set_clk(std::uint32_t level) { state_.clk = level; }
     void set_address(int address) { state_.addr = static_cast<std::uint32_t>(address); }
-    /// True from a reset to the first pulse: all outputs are off.
+    /// Returns true from a reset to the first pulse: all outputs are off.
     bool quiet() const { return state_.quiet != 0; }
     void wake() { state_.quiet = 0; }
 

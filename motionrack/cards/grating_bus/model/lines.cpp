@@ -1,4 +1,4 @@
-// Levels of the lines, and the list of conflicts.
+// Computes the levels of the lines, and lists conflicts.
 #include <bit>
 #include <motionrack/cards/grating_bus/model/lines.hpp>
 
@@ -71,7 +71,7 @@ void Lines::end_conflict(std::size_t i, Instant now) {
         conflict.end = now;
         return;
     }
-    // A conflict of no length is removed. Later conflicts, also those of this instant, move up.
+    // Removes a conflict without duration. Later conflicts, also those of this instant, move up.
     for (std::uint64_t n = open_[i] + 1; n < count_; ++n) {
         list_[(n - 1) % slots] = list_[n % slots];
         open_[list_[n % slots].line] = n - 1;

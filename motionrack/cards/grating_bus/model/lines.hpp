@@ -15,7 +15,7 @@ namespace motionrack::grating_bus {
 
 enum class Line : std::uint8_t { clk, hold, read_n, addr, data };
 inline constexpr std::size_t line_count = 5;
-inline constexpr int max_drivers = 64;  ///< cards and decoders of a bus
+inline constexpr int max_drivers = 64;  ///< maximum number of cards and decoders of a bus
 
 struct LineType {
     std::string_view name;
@@ -32,17 +32,17 @@ inline constexpr std::array<LineType, line_count> line_types = {{
 constexpr std::uint32_t rest_of(Line line) {
     return line_types[static_cast<std::size_t>(line)].rest;
 }
-/// Number of bits of a line.
+/// Returns the number of bits of a line.
 constexpr int bits_of_line(Line line) {
     return line_types[static_cast<std::size_t>(line)].bits;
 }
-/// Mask of all bits of a line.
+/// Returns the mask of all bits of a line.
 constexpr std::uint32_t bits_of(Line line) {
     return 0xFFFFFFFFu >> (32 - bits_of_line(line));
 }
 static_assert(1 << bits_of_line(Line::addr) == max_scales, "every address is that of a scale");
 
-/// Drivers that differed on a line from `begin` to `end`.
+/// A conflict: drivers differed on a line from `begin` to `end`.
 struct Conflict {
     Instant begin{};
     Instant end = never;     ///< never: the conflict persists
@@ -51,7 +51,7 @@ struct Conflict {
     std::uint64_t line = 0;  ///< Line
 };
 
-/// Plain state; trivially copyable.
+/// Drivers and levels of all lines, and the list of conflicts; trivially copyable.
 class Lines {
   public:
     static constexpr std::size_t kept = 256;  ///< number of conflicts kept in the list
@@ -73,10 +73,10 @@ class Lines {
     /// Lists conflicts once an instant has settled. Returns the lines (one bit each) on which a conflict began.
     unsigned note_conflicts(Instant now);
     bool conflict() const { return in_conflict_ != 0; }
-    /// Conflicts on this line since the start.
+    /// Returns the number of conflicts on this line since the start.
     std::uint64_t conflicts(Line line) const { return reported_[at(line)]; }
     std::uint64_t all_conflicts() const { return count_; }
-    /// Conflict number `n` (all_conflicts() - kept .. all_conflicts() - 1).
+    /// Returns conflict number `n` (all_conflicts() - kept .. all_conflicts() - 1).
     const Conflict& conflict(std::uint64_t n) const { return list_[n % slots]; }
 
   private:
@@ -84,13 +84,13 @@ class Lines {
         kept + line_count;  // conflicts of no length, which are removed again, push no other out
 
     static constexpr std::size_t at(Line line) { return static_cast<std::size_t>(line); }
-    /// AND of all driven levels; `any`: OR.
+    /// Returns the AND of all driven levels; sets `any` to their OR.
     std::uint32_t driven(std::size_t i, std::uint32_t& any) const;
     unsigned note_conflicts(std::size_t i, Instant now);
     void end_conflict(std::size_t i, Instant now);
-    /// True if the line's last conflict ended at this instant.
+    /// Returns true if the line's last conflict ended at this instant.
     bool ended_now(std::size_t i, Instant now) const;
-    /// True while conflict number `n` is still in the list.
+    /// Returns true while conflict number `n` is still in the list.
     bool listed(std::uint64_t n) const { return count_ <= n + kept; }
 
     std::array<std::uint32_t, line_count> level_ = {0, 0, 1, rest_of(Line::addr), rest_of(Line::data)};

@@ -46,7 +46,7 @@ struct SequenceTable {
 };
 inline constexpr SequenceTable sequence_table;
 
-/// Next state after `state`, by the transitions of the map.
+/// Returns the state after `state`, by the transitions of the map.
 constexpr State after(State state, bool words_left) {
     return sequence_table.next[static_cast<int>(state)][words_left];
 }

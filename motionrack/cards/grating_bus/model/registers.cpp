@@ -1,4 +1,4 @@
-// The processor's interface.
+// Reads and writes the registers of the processor's interface.
 #include <initializer_list>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 #include <motionrack/cards/grating_bus/model/card.hpp>
@@ -19,7 +19,7 @@ constexpr Field STATE = field("STATE", "STATE"), WORD = field("STATE", "WORD");
 static_assert((offset("OVERRUN") - offset("BROKEN")) / 2 + 1 == Card::counter_count,
               "ErrorCounter has the registers' order");
 
-/// Composes a word from flags.
+/// Returns a register word in which the given flags are set or clear.
 std::uint16_t flags(std::initializer_list<std::pair<Field, bool>> all) {
     std::uint16_t out = 0;
     for (const auto& [flag, set] : all) out = flag.set(out, set ? 1 : 0);
@@ -38,7 +38,7 @@ constexpr bool is_count(std::uint32_t at) {
     return at >= counts_at && at < counts_at + 4 * max_scales && at % 2 == 0;
 }
 
-/// True if the offset belongs to an address of the list that begins at `begin`.
+/// Returns true if the offset belongs to an address of the list that begins at the offset `begin`.
 constexpr bool is_address(std::uint32_t at, std::uint32_t begin) {
     return at >= begin && at < begin + 2 * max_scales && at % 2 == 0;
 }

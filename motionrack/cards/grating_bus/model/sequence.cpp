@@ -1,11 +1,11 @@
-// The sequence S0 .. S12 of a card, step by step, and the end of a frame.
+// Executes the sequence S0 .. S12 of a card, step by step, and ends frames.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 #include <motionrack/cards/grating_bus/model/card.hpp>
 
 namespace motionrack::grating_bus {
 
-/// What the card does as a state begins. after() gives the order of the states, LineOutputs their levels.
+/// Actions of the card when a state begins. after() gives the order of the states, LineOutputs their levels.
 struct Card::SequenceActions {
     static void first_word(Card& card, Instant) { card.frames_.set_word(0); }
     static void next_word(Card& card, Instant) { card.frames_.set_word(card.frames_.word() + 1); }
@@ -52,12 +52,12 @@ void Card::sample(const Lines& lines, Instant now) {
     if (is_host() ? address != wanted : !frames_.add_address(address)) return frames_.spoil(alien, bad_alien);
     if (line_wrong) frames_.spoil(line_faults, bad_lines);
     if (address == wanted) return;
-    // A slave takes the words that the host addresses, and counts a scale that differs from its own list.
+    // A slave takes the words that the host addresses, and notes a scale that differs from its own list.
     frames_.note_other();
 }
 
 void Card::advance(Instant now) {
-    if (state_.off != 0) {  // pulses keep their period
+    if (state_.off != 0) {  // pulses keep their period while the card is off
         if (pulses_.next() == now) pulses_.advance();
         return age_.check(now);
     }

@@ -1,4 +1,4 @@
-// Ranges and consistency of the settings.
+// Checks the ranges and the consistency of settings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ Result<void> check_list(const std::vector<int>& addresses) {
     return {};
 }
 
-/// The scales of a card as a phrase.
+/// Returns the scales of a card as a phrase: "the scales 0 to 3".
 std::string scales_text(const CardSettings& card) {
     if (!card.addresses.empty()) return fmt::format("the scales {}", fmt::join(card.addresses, ", "));
     return fmt::format("the scales {} to {}", card.first, card.first + card.scales - 1);

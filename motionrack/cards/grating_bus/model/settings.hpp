@@ -10,7 +10,7 @@
 
 namespace motionrack::grating_bus {
 
-/// remote: a slave whose bus is in another crate; its frames arrive through Card::take.
+/// Role of a motion card. remote: a slave whose bus is in another crate; its frames arrive through Card::take().
 enum class CardRole : std::uint8_t { host, slave, remote };
 /// Direction of a level shifter; as_role: out on a host, in on a slave.
 enum class Shifter : std::uint8_t { as_role, out, in };
@@ -29,10 +29,10 @@ struct CardSettings {
     bool verify_lines = true;                    ///< frames with wrong line levels are not published
     std::uint32_t seed = 1;                      ///< seed of the jitter
 
-    /// Address of the scale of word `k` (0 .. N - 1).
+    /// Returns the address of the scale of word `k` (0 .. N - 1).
     int address(int k) const { return addresses.empty() ? first + k : addresses[static_cast<std::size_t>(k)]; }
     bool same_list(const CardSettings& other) const;
-    /// Highest address of the list.
+    /// Returns the highest address of the list.
     int last_address() const;
 
     bool clock_out() const {
@@ -57,8 +57,8 @@ struct DecoderSettings {
 /// whole numbers, an address is beyond 127 or occurs twice, or the list has more than 128 addresses.
 Result<std::vector<int>> addresses_from_text(std::string_view text);
 
-/// Errors: refused, with the setting, its value and its range; also if a frame does not fit into its period, with its
-/// time.
+/// Checks settings. Errors: refused, with the setting, its value and its range; also if a frame does not fit into its
+/// period, with its duration.
 Result<void> check(const CardSettings& settings);
 Result<void> check(const DecoderSettings& settings);
 /// Checks that the decoder answers within the card's bus wait times. Errors: refused, with the numbers.

@@ -1,10 +1,10 @@
-// A whole frame as one step.
+// Processes a whole frame as one step.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 
 namespace motionrack::grating_bus {
 
-/// True if a frame that begins now is undisturbed and unobserved.
+/// Returns true if a frame that begins now is undisturbed and unobserved.
 bool Bus::regular() const {
     if (!alike_ || state_.wanted != 0 || state_.lines.any_forced() || decoders_[0]->state_.no_latch != 0) return false;
     for (const Card* card : cards_) {
@@ -15,7 +15,7 @@ bool Bus::regular() const {
     const Card& first = *cards_[static_cast<std::size_t>(host_)];
     const Instant next_period = first.pulses_.grid() + host().period;
     if (first.pulses_.next() + host().timing.frame_time(host().scales) >= next_period)
-        return false;  // the next pulse may come too soon
+        return false;  // the next pulse may come before the frame ends
     return state_.span != 0 || (state_.lines.level(Line::clk) == 0 && !first.lines_.quiet());
 }
 

@@ -1,4 +1,4 @@
-// Profiles composed of jerk-limited velocity changes.
+// Composes profiles of jerk-limited velocity changes.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/result.hpp>
@@ -26,7 +26,7 @@ Setpoint SpeedChange::at(double seconds) const {
         const double place_1 = jerk_s_ * (from_ + accel * jerk_s_ / 6), u = t - jerk_s_;
         return {place_1 + u * (speed_1 + accel * u / 2), speed_1 + accel * u, accel};
     }
-    const double left = duration() - t;  // the last jerk mirrors the first
+    const double left = duration() - t;  // the last jerk phase mirrors the first
     return {distance() - left * (to_ - jerk_ * left * left / 6), to_ - jerk_ * left * left / 2, jerk_ * left};
 }
 
@@ -42,7 +42,7 @@ ScanProfile::ScanProfile(double from_nm, double to_nm, const MotionLimits& limit
     MOTIONRACK_ASSERT(from_nm < to_nm && limits.speed_nm_s > 0 && limits.accel_nm_s2 > 0 && limits.jerk_nm_s3 > 0);
 }
 
-/// `seconds` within one period_s().
+/// Returns the time within the present period of the scan, 0 .. period_s().
 double ScanProfile::phase(double seconds) const {
     const double t = seconds - start_.duration(), period = period_s();
     return t - std::floor(t / period) * period;
@@ -82,7 +82,7 @@ StepProfile::StepProfile(double start_nm, double step_nm, int steps, double ever
                       limits.jerk_nm_s3 > 0);
     const auto both = [&](double speed) { return 2 * SpeedChange(0, speed, limits).distance(); };
     speed_ = limits.speed_nm_s;
-    if (both(speed_) > distance) {  // the highest velocity that leaves room to stop
+    if (both(speed_) > distance) {  // the highest velocity that still leaves the distance to stop
         double low = 0;
         for (int i = 0; i < 100; ++i) {
             const double middle = (low + speed_) / 2;

@@ -17,14 +17,14 @@
 
 namespace motionrack::grating_bus {
 
-/// Commanded motion at one instant; nm and seconds.
+/// Commanded motion at one instant, in nm and s.
 struct Setpoint {
     double position_nm = 0;
     double speed_nm_s = 0;
     double accel_nm_s2 = 0;
 };
 
-/// The same motion scaled by `factor`, for a geared stage.
+/// Returns the motion scaled by `factor`, for a geared stage.
 constexpr Setpoint geared(const Setpoint& s, double factor) {
     return {s.position_nm * factor, s.speed_nm_s * factor, s.accel_nm_s2 * factor};
 }
@@ -41,7 +41,7 @@ class SpeedChange {
   public:
     SpeedChange() = default;
     SpeedChange(double from_nm_s, double to_nm_s, const MotionLimits& limits);
-    /// Position relative to its start, `seconds` (0 .. duration()) after it.
+    /// Returns the motion relative to the start of the change, `seconds` (0 .. duration()) after it.
     Setpoint at(double seconds) const;
     double duration() const { return 2 * jerk_s_ + accel_s_; }
     /// Returns the distance travelled during the change, nm.
@@ -61,17 +61,18 @@ struct HoldProfile {
     Setpoint at(double) const { return {place_nm, 0, 0}; }
 };
 
-/// From standstill to a constant velocity between two positions, and to and fro between them with turns outside.
+/// Accelerates from standstill to a constant velocity, then moves back and forth between two positions at that
+/// velocity, with turns outside.
 class ScanProfile {
   public:
     /// Requires `from_nm` < `to_nm`.
     ScanProfile(double from_nm, double to_nm, const MotionLimits& limits);
     Setpoint at(double seconds) const;
-    /// Position of the initial standstill.
+    /// Returns the position of the initial standstill.
     double start_nm() const { return from_ - start_.distance(); }
-    /// True if the velocity is constant at `seconds`, in either direction.
+    /// Returns true if the velocity is constant at `seconds`, in either direction.
     bool scanning(double seconds) const;
-    /// Time from reaching `from_nm` to reaching it again in the same direction.
+    /// Returns the time from reaching `from_nm` to reaching it again in the same direction.
     double period_s() const { return 2 * (line_s_ + turn_.duration()); }
     double lead_s() const { return start_.duration(); }
 
@@ -86,15 +87,15 @@ class ScanProfile {
     SpeedChange turn_;
 };
 
-/// `steps` steps up, each `every_s`, then the same number down, repeatedly.
+/// Moves up by `steps` steps, one each `every_s`, then down by the same number, repeatedly.
 class StepProfile {
   public:
     /// Requires `step_nm` != 0, `steps` > 0, and `every_s` of at least move_s().
     StepProfile(double start_nm, double step_nm, int steps, double every_s, const MotionLimits& limits);
     Setpoint at(double seconds) const;
-    /// Duration of one move.
+    /// Returns the duration of one move.
     double move_s() const { return 2 * up_.duration() + line_s_; }
-    /// Time since the last move ended; negative during a move.
+    /// Returns the time since the last move ended; negative during a move.
     double settled_s(double seconds) const;
 
   private:
@@ -108,8 +109,8 @@ class StepProfile {
     SpeedChange down_;
 };
 
-/// Commanded values for a servo loop at a frame of `seconds`: position and velocity of that instant, and the
-/// acceleration in the middle of the next period, on which the voltage acts.
+/// Returns the commanded values of a servo loop for a frame at `seconds`: position and velocity of that instant, and
+/// the acceleration in the middle of the next period, in which the voltage acts.
 template <class Profile>
 Setpoint wanted_at(const Profile& profile, double seconds, double period_s) {
     Setpoint out = profile.at(seconds);

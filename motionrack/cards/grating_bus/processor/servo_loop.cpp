@@ -1,4 +1,4 @@
-// Arithmetic of the servo loop.
+// Computes the voltage of a servo loop.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/result.hpp>
@@ -60,7 +60,7 @@ double ServoLoop::on_frame(const Frame& frame, const Setpoint& wanted) {
     const double slope = begun_ != 0 ? (error - before_) / seconds : 0;
     const ServoGains& g = settings_.gains;
     const double rest = g.p * error + g.d * slope + g.speed_ff * wanted.speed_nm_s + g.accel_ff * wanted.accel_nm_s2;
-    // At the output limit the integral part would only wind up.
+    // Anti-windup: does not integrate while the output is at its limit.
     if (std::fabs(rest + integral_) < settings_.limit_v)
         integral_ = std::clamp(integral_ + g.i * error * seconds, -settings_.limit_i_v, settings_.limit_i_v);
     const double volts = rest + integral_;

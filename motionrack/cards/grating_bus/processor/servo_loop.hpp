@@ -25,9 +25,9 @@ struct ServoGains {
     double accel_ff = 0;  ///< V per nm/s2
 };
 
-/// Gains for an open-loop crossover at `bandwidth_hz` (about a twentieth of the frame rate leaves room for the frames'
-/// delay). `accel_per_volt`: acceleration of the stage, m/s2 per volt; `viscous`: its viscous deceleration, m/s2 per
-/// m/s.
+/// Returns gains for an open-loop crossover at `bandwidth_hz`; about a twentieth of the frame rate keeps a phase margin
+/// for the delay of the frames. `accel_per_volt`: acceleration of the stage, m/s2 per volt; `viscous`: its viscous
+/// deceleration, m/s2 per m/s.
 ServoGains tuned(double bandwidth_hz, double accel_per_volt, double viscous = 0);
 
 struct ServoSettings {
@@ -51,14 +51,14 @@ enum class LoopState : std::uint32_t {
 
 /// Following error of the loop since its last reset.
 struct FollowingError {
-    double last_nm = 0;  ///< commanded - actual, at the last frame
+    double last_nm = 0;  ///< commanded minus actual position at the last frame
     double peak_nm = 0;  ///< largest magnitude
     double squares = 0;
     std::uint64_t frames = 0;
     double rms_nm() const;
 };
 
-/// Trivially copyable: a copy continues like the original.
+/// The loop. Trivially copyable: a copy continues like the original.
 class ServoLoop {
   public:
     ServoLoop() : ServoLoop(ServoSettings{}) {}
@@ -78,19 +78,19 @@ class ServoLoop {
     bool closed() const { return state_ == LoopState::closed; }
     LoopState state() const { return state_; }
     double volts() const { return volts_; }
-    /// Actual position at the last frame.
+    /// Returns the actual position at the last frame.
     double position_nm() const {
         return settings_.zero_offset_nm + static_cast<double>(count_) * settings_.nm_per_count;
     }
     std::int64_t count() const { return count_; }
     const FollowingError& error() const { return error_; }
     void reset_error() { error_ = {}; }
-    /// Ignored frames: damaged, without this scale, or not newer than the last one.
+    /// Returns the number of ignored frames: damaged, without this scale, or not newer than the last one.
     std::uint64_t unused() const { return unused_; }
     const ServoSettings& settings() const { return settings_; }
 
   private:
-    /// The word of the loop's scale if the frame can be used.
+    /// Returns the word of the loop's scale; nullopt if the frame cannot be used.
     std::optional<std::uint32_t> usable(const Frame& frame) const;
     double open(LoopState why);
 

@@ -1,4 +1,4 @@
-// Addresses: seven lines, lists of scales, and the roles of host and slaves.
+// Tests of addresses: the seven lines, the lists of scales, and the roles of host and slaves.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

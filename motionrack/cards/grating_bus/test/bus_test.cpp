@@ -1,4 +1,4 @@
-// Host and slaves on one bus: their common data, and the effects of faults.
+// Tests of a host and slaves on one bus: they hold the same data, and faults have the documented effects.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,8 @@ using testing::HasSubstr;
 constexpr Duration period = microseconds(200);
 constexpr std::uint16_t stale_bit = 4;
 
-/// Checks that the frames of all cards are equal, one per period, and true at their instants.
+/// Checks that the frames of all cards are equal, that each period has one, and that their counts are those of their
+/// instants.
 void expect_true_frames(const Crate& crate, std::size_t frames, int scales) {
     for (std::size_t card = 0; card < crate.cards.size(); ++card) {
         ASSERT_EQ(crate.heard(card).size(), frames) << "card " << card;
@@ -54,8 +55,8 @@ TEST(GratingBus, AFrameIsTheSameWithAndWithoutObservers) {
         for (int i = 0; i < 500; ++i) {
             const Duration step = nanoseconds(7'777);
             fast.run(step), slow.run(step), turning.run(step);
-            turning.cards[0]->fault("miss_edge", 0, turning.kernel.now());  // refused by a host: no effect
-            turning.cards[1]->fault("late", 0, turning.kernel.now());       // continues the present frame
+            turning.cards[0]->fault("miss_edge", 0, turning.kernel.now());  // a host refuses it: no effect
+            turning.cards[1]->fault("late", 0, turning.kernel.now());       // the present frame continues
             for (const char* wire : {"bus.clk", "bus.hold", "bus.read_n", "bus.addr", "bus.data", "bus.data3",
                                      "c0.state", "c2.state", "c1.frame_done"})
                 for (const Crate* crate : {&fast, &turning})
@@ -209,7 +210,7 @@ TEST_P(GratingBusStuck, NoCardPublishesAWrongFrameAndCardsWithoutAFrameReportIt)
     crate.kernel.force(crate.kernel.find_wire(stuck.wire), stuck.level);
     crate.kernel.settle();
     crate.run(4 * period);
-    const bool deaf = stuck.wire == std::string_view("bus.clk") && stuck.level == 1;  // only slaves need clk to rise
+    const bool deaf = stuck.wire == std::string_view("bus.clk") && stuck.level == 1;  // only slaves need a rising clk
     for (std::size_t card = 0; card < 3; ++card) {
         for (const Heard& heard : crate.heard(card))
             for (std::size_t k = 0; k < 4; ++k)

@@ -33,7 +33,7 @@ class WireLog final : public sim::Kernel::WireObserver {
         else
             changes.push_back({now, name, level});
     }
-    /// Levels of a wire with the instants of their changes.
+    /// Returns the levels of a wire since `from`, with the instants of their changes.
     std::vector<std::pair<Duration, int>> of(const std::string& wire, Instant from) const {
         std::vector<std::pair<Duration, int>> out;
         for (const Change& change : changes)
@@ -67,7 +67,8 @@ TEST(GratingBusClaims, Claim1OneCardGivesClockAndAddressAndTheOthersReadTheSameD
     EXPECT_EQ(log.of("bus.hold", cycle), (Levels{{ns(0), 1}, {ns(230), 0}}));
     EXPECT_EQ(log.of("bus.read_n", cycle), (Levels{{ns(20), 0}, {ns(80), 1}, {ns(130), 0}, {ns(190), 1}}));
     EXPECT_EQ(log.of("bus.addr", cycle), (Levels{{ns(20), 5}, {ns(130), 2}, {ns(230), 0x7F}}));
-    // The others begin at the clock's rising edge, and take the address and the data from the bus with the first card.
+    // The other cards begin at the rising edge of the clock, and take address and data from the bus together with the
+    // first.
     EXPECT_EQ(log.of("c1.state", cycle), log.of("c0.state", cycle));
     EXPECT_EQ(log.of("c2.state", cycle), log.of("c0.state", cycle));
     for (const std::size_t card : {0, 1, 2}) {
@@ -79,7 +80,7 @@ TEST(GratingBusClaims, Claim1OneCardGivesClockAndAddressAndTheOthersReadTheSameD
         EXPECT_EQ(frame.counts[1], static_cast<std::uint32_t>(crate.truth(2, cycle)));
     }
     EXPECT_EQ(crate.bus.lines().all_conflicts(), 0u);
-    // Without READ no address, without the clock's edge no frame.
+    // Without READ the host gives no address; without the clock's edge a slave takes no frame.
     crate.kernel.force(crate.kernel.find_wire("bus.read_n"), 1);
     crate.kernel.settle();
     const Instant stuck = crate.kernel.now();
@@ -141,7 +142,7 @@ TEST(GratingBusClaims, Claim3TheLogicIsAStateMachineOfThirteenStates) {
     EXPECT_EQ(log.of("c0.frame_done", cycle), (Levels{{entered(12), 1}, {entered(12) + ns(10), 0}}))
         << "S12: the pulse that reading is complete";
     EXPECT_EQ(crate.heard(0).back().at, cycle + entered(12));
-    // One scale: no S6 to S10. Without a pulse, no state but S0.
+    // One scale needs no S6 to S10; without a pulse the card stays in S0.
     Crate one(crew(0, 1), 1);
     one.run(cycle - ns(100));
     WireLog log_of_one(one);

@@ -1,4 +1,4 @@
-// The function library against the virtual card.
+// Tests of the function library on virtual cards.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 constexpr Duration driver_period = microseconds(200);
 
-/// A crate with a processor at each card.
+/// A crate with a processor's library at each card.
 struct Bench : Crate {
     explicit Bench(const std::vector<CardSettings>& settings, int scales = 4, Duration access = nanoseconds(40))
         : Crate(settings, scales, {}, false) {

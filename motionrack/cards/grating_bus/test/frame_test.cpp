@@ -1,4 +1,4 @@
-// The frame, its CRC and its reading time.
+// Tests of the frame: its CRC, its comparisons and its reading time.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/grating_bus/map.hpp>

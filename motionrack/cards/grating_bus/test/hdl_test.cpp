@@ -1,4 +1,4 @@
-// The logic in hdl/ matches its page: pins, parameters, and the yosys results.
+// Compares the logic in hdl/ with its page: pins, parameters, and the resources that yosys counts.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -26,7 +26,7 @@ std::string contents(const fs::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// First cells of the rows of the table whose first heading is `heading`, without quotes.
+/// Returns the first cell of each row, without quotes, of the table whose first heading is `heading`.
 std::vector<std::string> first_cells(const std::string& heading) {
     std::vector<std::string> out;
     std::istringstream page(contents(hdl + "README.md"));
@@ -40,7 +40,7 @@ std::vector<std::string> first_cells(const std::string& heading) {
     return out;
 }
 
-/// Names declared in the header of a module: of its parameters or of its ports.
+/// Returns the names in the header of a module: those of its parameters, or of its ports.
 std::vector<std::string> names_declared(const std::string& module, bool parameters) {
     const std::string text = contents(hdl + "grating_bus/" + module + ".sv");
     const std::size_t begin = text.find("module " + module), end = text.find("\n);", begin);
@@ -66,7 +66,7 @@ TEST(GratingHdl, ThePageNamesEveryFile) {
             << file.path().filename();
 }
 
-/// A row of the table of resources as yosys counts them.
+/// Returns a row of the table of resources, with the numbers that yosys counts.
 std::string row_of(const std::string& label, const std::string& top, const std::string& parameters) {
     const std::string out =
         (fs::temp_directory_path() / ("motionrack_yosys_" + std::to_string(::getpid()) + ".txt")).string();

@@ -1,4 +1,4 @@
-// The map against the pages and against the behaviour of the cards.
+// Compares the map with the pages and with the behaviour of the cards.
 #include <gtest/gtest.h>
 
 #include <motionrack/base/describe.hpp>
@@ -13,7 +13,7 @@ std::string stored(const std::string& page) {
     return text_of(source_root / "docs/reference" / page);
 }
 
-/// A cell of a table with its bar; an empty one is a blank.
+/// Returns a cell of a table with its closing bar; an empty text gives a blank cell.
 std::string cell(std::string_view text) {
     return text.empty() ? " |" : " " + std::string(text) + " |";
 }

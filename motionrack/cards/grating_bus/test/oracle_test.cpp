@@ -1,5 +1,5 @@
-// Random programs of cards, faults and stuck lines give the same result on the event-driven cards and on their slow
-// twin, with any listeners on wires.
+// Compares the event-driven cards with their slow twin: random programs of cards, faults and stuck lines must give the
+// same result, with any listeners on wires.
 //
 // tests/oracle/harness.hpp names the variables of the environment that select other and more programs.
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Complete outcome of a random program, on the twin or the cards, most of it as lines of text in one order.
+// Outcome of a random program on the twin or on the cards, mostly as lines of text in a fixed order for comparison.
 #pragma once
 
 #include <cstddef>
@@ -18,17 +18,17 @@ struct Outcome {
     std::size_t conflict_count = 0;
 };
 
-/// Listeners of single wires, which must have no effect.
+/// Which single wires have listeners; listeners must not change the outcome.
 enum class Watch { nobody, everybody, now_and_then };
 
 Outcome on_twin(const Program& program);
 Outcome on_cards(const Program& program, Watch watch);
 
-/// The first conflict to be compared out of this number: cards store only the last ones.
+/// Returns the index of the first conflict to compare, of this number: cards store only the last ones.
 std::size_t first_compared(std::size_t conflicts);
-/// Numbers with blanks between them.
+/// Returns the numbers, each with a blank after it.
 std::string row(std::initializer_list<std::int64_t> numbers);
-/// Address and count of each word.
+/// Returns address and count of each word as text.
 std::string words_of(const Frame& frame);
 
 }  // namespace motionrack::grating_bus::twin

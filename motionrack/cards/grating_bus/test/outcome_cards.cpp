@@ -1,4 +1,4 @@
-// Outcome of a random program on the event-driven cards.
+// Runs a random program on the event-driven cards.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -54,7 +54,7 @@ std::string text_of_cards(const Frame& frame) {
     return row({frame.sequence, frame.time, frame.words, frame.crc}).append(words_of(frame));
 }
 
-/// The program's cards, then its decoder.
+/// A kernel with the program's cards and its decoder.
 struct World {
     explicit World(const Program& program) {
         for (std::size_t i = 0; i < program.cards.size(); ++i) {
@@ -93,7 +93,7 @@ struct World {
         }
     }
     void carry_out(const Op& op);
-    /// The cards continue, and are then restored, with what has been recorded.
+    /// Lets the cards continue, then restores them and the recorded changes.
     void disturb(Ticks at, std::vector<oracle::Change>& changes);
     void poll(Outcome& out, Ticks at) const;
 

@@ -1,4 +1,4 @@
-// Outcome of a random program on the twin.
+// Runs a random program on the twin.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/model/lines.hpp>
 #include <motionrack/cards/grating_bus/test/outcome.hpp>

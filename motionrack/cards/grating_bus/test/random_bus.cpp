@@ -1,4 +1,4 @@
-// Generation of the random programs.
+// Generates the random programs.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/model/card.hpp>
 #include <motionrack/cards/grating_bus/test/random_bus.hpp>
@@ -18,7 +18,7 @@ Program Maker::make() {
     program_.end = (periods + 1) * period_;
     const std::int64_t ops = one_in(4) ? 0 : below(one_in(2) ? 8 : 25);
     for (std::int64_t i = 0; i < ops; ++i) program_.ops.push_back(op());
-    // Most stuck or disabled items are restored.
+    // Most stuck or disabled items are released or enabled again later.
     for (std::size_t i = 0; i < program_.ops.size() && program_.ops.size() < 60; ++i) {
         Op other = program_.ops[i];
         if (one_in(4)) continue;
@@ -47,7 +47,7 @@ void Maker::set(CardSettings& card, const BusTiming& timing) {
     card.clock = timing.clock.count();
 }
 
-/// The given number of different addresses.
+/// Returns `words` different addresses.
 std::vector<int> Maker::list(int words) {
     std::vector<int> all(static_cast<std::size_t>(words + below(8)));
     std::iota(all.begin(), all.end(), 0);
@@ -113,7 +113,7 @@ void Maker::add_decoder() {
     };
 }
 
-/// Mostly during a frame, and often at an instant of an event.
+/// Returns an instant, mostly during a frame and often exactly that of an event.
 Ticks Maker::instant() {
     const CardSettings& card =
         program_.cards[static_cast<std::size_t>(below(static_cast<std::int64_t>(program_.cards.size())))];

@@ -11,18 +11,20 @@
 
 namespace motionrack::grating_bus::twin {
 
-/// One external action; `who`: a card or decoder, `a` and `b`: parameters of the kind.
+/// One external action. `who`: number of the card or decoder; `a`: parameter of the kind.
 struct Op {
     enum Kind { poll, off, reset, late, miss_edges, jitter, no_latch, force, release, claim, give_back, clear };
     Ticks at = 0;
     Kind kind = poll;
     int who = 0;
-    std::int64_t a = 0;  ///< off, no_latch: 0 or 1; late, jitter: ticks; miss_edges: number; force: level; look: wires
+    /// Off, no_latch: 0 or 1; reset: 0 by the register, else as a fault; late, jitter: ticks; miss_edges: number of
+    /// edges; force: level; poll: not 0 if the watcher subscribes to all wires from now on (Watch::now_and_then).
+    std::int64_t a = 0;
     Line line = clk;
     int bit = -1;  ///< bit of addr or data; -1: the whole line
 };
 
-/// A scale that starts at `start` and moves by `step` counts in each `every` ticks.
+/// A scale that starts at the count `start` and moves by `step` counts in each `every` ticks.
 struct Course {
     std::uint32_t start = 0;
     std::int64_t step = 1, every = 500;
@@ -62,7 +64,7 @@ class Maker {
     bool healthy_ = false;  // one host, equal cards, a matching decoder: a typical crate
 };
 
-/// The twin of the program, before its first instant.
+/// Makes the twin of a program, before its first instant.
 Twin twin_of(const Program& program, bool every_tick = false);
 /// Runs the twin to the operation's instant and executes it.
 void carry_out(Twin& twin, const Op& op);

@@ -8,7 +8,7 @@
 
 namespace motionrack::grating_bus {
 
-/// Moves at a constant velocity of whole counts; count(t) = from + t * per_second / 1e10, rounded down.
+/// Motion at a constant velocity in whole counts: count(t) = from + t * per_second / 1e10, t in ticks, rounded down.
 class EvenMotion final : public sim::PositionFunction {
   public:
     EvenMotion(std::int64_t from, std::int64_t per_second) : from_(from), per_second_(per_second) {}
@@ -28,7 +28,7 @@ class EvenMotion final : public sim::PositionFunction {
     std::int64_t from_, per_second_;
 };
 
-/// A frame as it was published.
+/// A frame and the instant at which it was published.
 struct Heard {
     Instant at{};
     Frame frame;
@@ -47,7 +47,7 @@ inline std::vector<std::int64_t> speeds(int scales) {
     return out;
 }
 
-/// Watches wires on request.
+/// Subscribes to wires on request.
 class Watcher final : public sim::Device {
   public:
     explicit Watcher(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "watcher")) {}

@@ -1,5 +1,5 @@
-// Profiles against their own derivatives and limits; loops closed through frames of a scale on a stage, in time and
-// late.
+// Tests of profiles against their own derivatives and limits, and of loops closed through the frames of a scale on a
+// stage, with frames in time and late.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -15,7 +15,8 @@ namespace {
 
 const MotionLimits limits{8e7, 5e9, 1e12};  // 80 mm/s, 5 m/s2, 1000 m/s3
 
-/// Maximum velocity, acceleration and jerk of a profile; each must be the derivative of the previous one.
+/// Checks that velocity, acceleration and jerk of a profile stay within the limits, and that each is the derivative of
+/// the previous one.
 template <class Profile>
 void check(const Profile& profile, double until, const MotionLimits& max_motion) {
     const double h = 1e-6;
@@ -90,7 +91,7 @@ RC_GTEST_PROP(StepProfile, EndsWhereItShould, ()) {
 
 constexpr Duration servo_period = microseconds(200);
 
-/// One axis: a stage with its scale, and a card whose frames may be late or of another instant.
+/// One axis: a stage with its scale, and a loop whose frames may arrive late or hold counts of another instant.
 struct Axis {
     explicit Axis(double bandwidth_hz = 250, const parts::LinearStageSettings& stage_settings = {})
         : stage(kernel, "x", stage_settings), scale(kernel, "s", stage), loop(settings(bandwidth_hz, stage_settings)) {
@@ -196,7 +197,7 @@ TEST(ServoLoop, LosesStabilityWithLateFrames) {
     EXPECT_GT(max_error[3], 1e4) << "a loop of 250 Hz has no margin left with three periods";
     EXPECT_LE(max_error[0], max_error[1]);
     EXPECT_LT(max_error[1], max_error[3]);
-    // While it moves, one period matters too.
+    // During a move, a delay of one period already matters.
     double moving[3] = {};
     for (std::size_t late = 0; late < 3; ++late) {
         Axis axis;
@@ -231,7 +232,7 @@ TEST(ServoLoop, StaleDataOpenTheLoopUntilItIsClosedAgain) {
     EXPECT_EQ(axis.loop.volts(), 0) << "frames that come later do not close it";
     EXPECT_EQ(axis.loop.on_stale(), 0);
     EXPECT_EQ(axis.loop.state(), LoopState::stale);
-    // Without voltage it coasts; it is stopped by hand and restarted from its position.
+    // Without voltage the stage coasts. The test stops it and closes the loop at its position.
     axis.stage.fault("motor.stall", 1, axis.kernel.now());
     axis.stage.fault("motor.stall", 0, axis.kernel.now());
     axis.loop.close(axis.scale.count(axis.kernel.now()));
@@ -302,7 +303,7 @@ TEST(ServoLoop, InvalidAndRepeatedFramesAreCountedAndNotUsed) {
     ServoLoop weak(limited);
     weak.close();
     EXPECT_EQ(weak.on_frame(frame, {1e9, 0, 0}), 0.01);
-    // A scale that wraps: the count nearest to the last one.
+    // The count of a scale wraps at 32 bits: the loop takes the count nearest to the last one.
     ServoLoop far(axis.loop.settings());
     far.close(5'000'000'000);
     frame.counts[0] = static_cast<std::uint32_t>(5'000'000'123);

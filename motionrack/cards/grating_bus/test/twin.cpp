@@ -1,4 +1,4 @@
-// The twin's motion cards and its loop; its lines and decoders are in twin_lines.cpp.
+// The motion cards of the twin and its time loop; its lines and decoders are in twin_lines.cpp.
 #include <algorithm>
 #include <motionrack/cards/grating_bus/test/twin.hpp>
 
@@ -69,7 +69,7 @@ void Twin::instant() {
     for (Card& card : cards_) look_at_age(card);
 }
 
-/// Lines take their levels and edges act; repeated if this changes driven lines.
+/// Sets the levels of the lines and lets edges act; repeats this while it changes driven lines.
 void Twin::settle() {
     for (bool again = true; again;) {
         const Levels old = levels_;
@@ -280,7 +280,7 @@ void Twin::finish(Card& card) {
     }
 }
 
-/// If it overwrote the frame published last, the older claimed one replaces it.
+/// Abandons the buffer being filled. If it held the frame published last, the older claimed frame becomes that one.
 void Twin::abandon(Card& card) {
     if (card.filling != none && card.filling == card.published) card.published = card.claimed;
     card.filling = none;

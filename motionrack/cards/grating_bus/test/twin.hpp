@@ -18,7 +18,7 @@ namespace motionrack::grating_bus::twin {
 
 using Ticks = std::int64_t;  ///< time in units of 0.1 ns
 
-/// The bus' lines; addr and data of 7 and 32 bits.
+/// The lines of the bus; addr has 7 bits, data 32.
 enum Line { clk, hold, read_n, addr, data, line_count };
 inline constexpr std::array<int, line_count> width{1, 1, 1, 7, 32};
 inline constexpr std::array<std::uint32_t, line_count> rest{0, 0, 1, 0x7F, 0xFFFFFFFF};
@@ -29,7 +29,7 @@ struct CardSettings {
     int first = 0, words = 1;
     std::vector<int> list;  ///< addresses of the words; empty: from `first` on
     Ticks t1 = 200, t2 = 300, t3 = 300, clock = 100, period = 2'000'000, offset = 0;
-    /// Delay of pulse n, at most `max_delay` (the fault `jitter`).
+    /// Returns the delay of pulse `n`, at most `max_delay` (the fault `jitter`).
     std::function<Ticks(std::int64_t n, Ticks max_delay)> jitter;
 
     std::uint32_t address(int word) const {
@@ -119,11 +119,11 @@ class Twin {
     int state(int card) const { return cards_[card].state; }
     bool frame_done(int card) const { return cards_[card].state == 12; }
     bool stale(int card) const { return cards_[card].stale; }
-    /// A frame was published since the last claim.
+    /// Returns true if a frame was published since the last claim.
     bool fresh(int card) const { return cards_[card].fresh; }
     bool off(int card) const { return cards_[card].off; }
     bool claimed(int card) const { return cards_[card].claimed != none; }
-    /// The claimed frame; one of 0 words if none is.
+    /// Returns the claimed frame; one of 0 words if none is claimed.
     Frame claimed_frame(int card) const;
 
   private:

@@ -4,7 +4,7 @@
 
 namespace motionrack::grating_bus::twin {
 
-/// The level that card or decoder number `driver` drives on `line`, if any.
+/// Returns true if card or decoder number `driver` drives `line`, and sets `level`.
 bool Twin::drives(int driver, Line line, std::uint32_t& level) const {
     const int cards = static_cast<int>(cards_.size());
     if (driver >= cards) {
@@ -61,7 +61,8 @@ void Twin::note_conflicts(Line line) {
     }
 }
 
-/// Instant at which the requested count is output; never, if it is already, or none is requested.
+/// Returns the instant at which the decoder outputs the requested count; never if it has output it, or none is
+/// requested.
 Ticks Twin::ready_at(const Decoder& decoder) const {
     if (levels_[read_n] != 0 || decoder.put_out || levels_[addr] >= static_cast<std::uint32_t>(decoder.settings.scales))
         return nothing_due;

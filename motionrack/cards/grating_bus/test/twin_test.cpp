@@ -1,4 +1,4 @@
-// The twin against the source's numbers and against RULES.md.
+// Tests of the twin against the numbers of the source and against RULES.md.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -9,7 +9,7 @@ namespace {
 
 constexpr Ticks ns = 10;
 
-/// A scale that moves one count in each 50 ns (20 MHz), scale by scale offset.
+/// Returns the count of a scale that moves one count in each 50 ns (20 MHz); the scales are 1,000,000 counts apart.
 std::uint32_t moving(int scale, Ticks at) {
     return static_cast<std::uint32_t>(1'000'000 * scale + at / (50 * ns));
 }
@@ -32,7 +32,7 @@ DecoderSettings decoder(int scales) {
     return settings;
 }
 
-/// Instants at which the card entered one of the two states.
+/// Returns the instants at which the card entered one of the two states.
 std::vector<Ticks> entered(const Twin& twin, int card, int state, int other) {
     std::vector<Ticks> out;
     for (const StateChange& change : twin.states(card))
@@ -105,7 +105,7 @@ TEST(GratingTwin, HostAndTenSlavesHoldTheCountsOfHold) {
 
 TEST(GratingTwin, SamplesTheLinesAsTheyWereJustBeforeTheSample) {
     DecoderSettings slow = decoder(4);
-    slow.output = 30 * ns;  // output at the very instant of the sample
+    slow.output = 30 * ns;  // the data is output exactly at the instant of the sample
     Twin twin({host(4)}, {slow});
     twin.run_to(1000 * ns);
     const Frame& frame = twin.frames(0).at(0).frame;
@@ -155,7 +155,7 @@ TEST(GratingTwin, AClaimedFrameIsNotOverwritten) {
     EXPECT_EQ(twin.claimed_frame(0).sequence, 1u);
     twin.run_to(800'050 * ns);
     EXPECT_EQ(twin.claimed_frame(0).sequence, 1u);
-    twin.claim(0);  // the other one is being filled
+    twin.claim(0);  // the twin is filling the other buffer
     EXPECT_EQ(twin.claimed_frame(0).sequence, 1u);
     twin.run_to(900'000 * ns);
     twin.claim(0);

@@ -27,14 +27,14 @@ struct System {
     int stride = 1, shift = 0;                 ///< word k of host h is that of scale (k stride + h shift) mod words
 };
 
-/// Results of both, as text: "clock state", "clock" of good frames, the counters, and "card sequence time crc, then
-/// address and count of each word".
+/// Results of the logic or of the twin, as text: "clock state", "clock" of good frames, the counters, and "card
+/// sequence time crc", followed by address and count of each word.
 struct Shown {
     std::vector<std::vector<std::string>> states, frames, published, counters;
     std::string end;
 };
 
-/// The modules, and those of the testbench.
+/// Returns the source files of the modules, and of the testbench `top`.
 std::string files_of(const std::string& top) {
     std::string out;
     for (const char* file : {"card", "decoder", "shifter", "motion_card", "decoder_card"})
@@ -84,13 +84,13 @@ Shown run_verilog(const System& system) {
     return out;
 }
 
-/// Position of a scale after that clock edge, as in grating_scales.sv.
+/// Returns the count of a scale after that clock edge, as in grating_scales.sv.
 std::uint32_t position(int scale, std::int64_t edge) {
     const std::int64_t rate = 13'107 - 3'001 * (scale % 9), fraction = rate * edge;
     return static_cast<std::uint32_t>(fraction >= 0 ? fraction / 65'536 : -((-fraction + 65'535) / 65'536));
 }
 
-/// Clocks at which drivers of one of the lines differ.
+/// Returns the number of clocks at which drivers of one of the lines differ.
 std::size_t conflicting(const Twin& twin, const std::set<Line>& lines) {
     std::set<std::int64_t> clocks;
     for (const Conflict& conflict : twin.conflicts())
@@ -151,14 +151,14 @@ Shown run_twin(const System& system) {
     return out;
 }
 
-/// A frame's text without its sequence, time and CRC.
+/// Returns a frame's text without its card, sequence, time and CRC.
 std::string counts_of(const std::string& frame) {
     std::size_t at = 0;
     for (int i = 0; i < 3; ++i) at = frame.find(' ', at) + 1;
     return frame.substr(at);
 }
 
-/// Number of frames with other counts than card 0's of the same period.
+/// Returns the number of frames whose counts differ from those of card 0 in the same period.
 std::size_t compare(const std::vector<System>& systems) {
     std::size_t different = 0;
     for (const System& system : systems) {
