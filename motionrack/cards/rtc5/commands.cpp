@@ -1,4 +1,4 @@
-// Validation of a list command's parameters before loading; names of status bits.
+// Validates the parameters of list commands before loading, and names status bits.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -24,15 +24,15 @@ inline constexpr int encoder_count = 2, head_count = 2, table_count = 4, start_q
 inline constexpr int simulated_counts = 10;  ///< counts per tick of a simulated encoder: 1 MHz
 inline constexpr std::int64_t min_list_memory = 16, max_list_memory = 1 << 20;
 inline constexpr std::size_t max_depth = 63, calls_per_tick = 64, subroutine_count = 1024;
-inline constexpr double min_resolution = 100;  ///< counts per revolution; below it rotary corrections are off
+inline constexpr double min_resolution = 100;  ///< counts per revolution; a lower one disables a rotary correction
 
 /// Bits of set_control_mode: external start enabled, encoder reset at a start, equidistant starts.
 inline constexpr std::uint32_t control_ext_start = 1u << 0, control_reset_at_start = 1u << 9,
                                control_equidistant = 1u << 10;
 
-/// Makes a list command with validated parameters. NaN, infinities, fractions of whole parameters and values outside a
-/// range that does not clip are refused; the sentence has the command, the parameter, the number and the range.
-/// Coordinates and speeds are clipped.
+/// Makes a list command with validated parameters. Clips coordinates and speeds. Errors: refused, with command,
+/// parameter, number and range, for NaN, infinities, fractions of whole parameters, and values outside a range that
+/// does not clip.
 Result<Command> list_command(Op op, std::span<const double> parameters);
 inline Result<Command> list_command(Op op, std::initializer_list<double> parameters) {
     return list_command(op, std::span<const double>(parameters.begin(), parameters.size()));

@@ -1,4 +1,4 @@
-// The RTC5's map in the types shared by all cards: list commands with parameters, status words bit by bit, pins.
+// The map of the RTC5 in the types shared by all cards: list commands with parameters, status words bit by bit, pins.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ inline constexpr auto marking_info_fields = fields_of(marking_info_bits);
 inline constexpr auto startstop_info_fields = fields_of(startstop_info_bits);
 inline constexpr auto list_status_fields = fields_of(list_status_bits);
 
-/// Status words that the card answers to queries. The card has no bus, so their offsets are only numbers.
+/// Status words that the card answers to queries. The card has no bus, so the offsets only distinguish them.
 inline constexpr RegisterInfo words[] = {
     {"STATUS", 0, 32, Access::read, false, "", "answer of get_status, no register on a bus", status_fields},
     {"MARKING_INFO", 4, 32, Access::read_clears, false, "",
@@ -53,7 +53,7 @@ inline constexpr auto command_texts = [] {
     }
     return found;
 }();
-/// The list commands; their codes are the project's own.
+/// The list commands; the source does not give their codes, so the numbers are the project's own.
 inline constexpr auto commands = [] {
     std::array<CommandInfo, op_count> found{};
     for (std::size_t i = 0; i < op_count; ++i) {

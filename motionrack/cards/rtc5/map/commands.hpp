@@ -1,4 +1,4 @@
-// The RTC5's list commands, declared once: timing class, parameters with their ranges, and the treatment of values
+// The list commands of the RTC5, declared once: timing class, parameters with ranges, and the treatment of values
 // outside a range.
 #pragma once
 
@@ -34,11 +34,11 @@ inline constexpr std::size_t op_count = static_cast<std::size_t>(Op::count);
 /// Timing class of a command: ticks that it takes, and whether it changes or reads the processing after the path
 /// position (pipeline).
 enum class Timing : std::uint8_t {
-    shortly,   ///< no tick of its own; motion continues through it
-    across,    ///< as shortly, but it reads or changes the pipeline
-    pipeline,  ///< no tick of its own; a polyline ends before it
-    normal,    ///< a tick or more; reads or changes the pipeline
-    motion     ///< a tick or more; moves or holds the position
+    shortly,   ///< takes no tick of its own; a motion continues through it
+    across,    ///< as shortly, but the command reads or changes the pipeline
+    pipeline,  ///< takes no tick of its own; a polyline ends before it
+    normal,    ///< takes a tick or more; reads or changes the pipeline
+    motion     ///< takes a tick or more; moves or holds the position
 };
 
 /// Kind of a parameter; it determines the range.
@@ -59,7 +59,7 @@ struct ListCommandInfo {
     std::string_view name;
     Op op = Op::none;
     Timing timing = Timing::normal;
-    int positions = 1;  ///< positions that it takes in the list memory
+    int positions = 1;  ///< number of positions that the command takes in the list memory
     std::array<ParamInfo, max_params> params{};
     std::string_view meaning;
 
@@ -82,7 +82,7 @@ static_assert(sizeof(Command) == 40);
 /// Range of a parameter; a value outside it is clipped, or the command is refused.
 struct KindInfo {
     double min = 0, max = 0;
-    bool clipped = false;  ///< false: refused
+    bool clipped = false;  ///< true: a value outside is clipped; false: the command is refused
     bool whole = true;
     std::string_view unit;
 };

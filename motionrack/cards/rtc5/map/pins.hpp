@@ -1,4 +1,4 @@
-// The RTC5's lines, in the order of the model's wires.
+// The lines of the RTC5, in the order of the model's wires.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace motionrack::rtc5::map {
 
-/// A line of the card whose wire carries a level (1 bit) or a whole number of `bits` bits.
+/// A line of the card; its wire carries a level (1 bit) or a whole number of `bits` bits.
 struct WidePin {
     PinInfo pin;
     int bits = 1;

@@ -8,7 +8,7 @@
 
 namespace motionrack::rtc5 {
 
-/// Quantity of a tick whose value a signal has.
+/// Quantity of a tick that a signal gives.
 enum class SignalSource : std::uint8_t { laser, corrected, z, table, output, transformed, io, count, mark_speed };
 
 struct SignalInfo {

@@ -1,4 +1,4 @@
-// Status bits of the RTC5, by name.
+// The status bits of the RTC5, by name.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Counts of the encoders and their speed.
+// Counts the conveyor's encoders and filters their speed.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The encoders of the conveyor: their counts tick by tick, in blocks and over intervals, real or simulated.
+// The encoders of the conveyor: counts tick by tick, in blocks and over intervals, from inputs or simulated.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace motionrack::rtc5 {
 
-/// Returns the lower 32 bits of `v` as a signed number, as the card's counters wrap.
+/// Returns the low 32 bits of `v` as a signed number, because the card's counters wrap.
 inline std::int32_t wrapped(std::int64_t v) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(v));
 }

@@ -1,4 +1,4 @@
-// Inputs from the wires of the rack, ticks of the engine, outputs to the wires of the rack.
+// Connects the engine to the rack: reads inputs from wires, runs ticks, and drives the output wires.
 #include <algorithm>
 #include <motionrack/cards/rtc5/model/card.hpp>
 
@@ -18,7 +18,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
     : kernel_(kernel), engine_(settings) {
     id_ = kernel.add(*this, sim::Phase::cards, name);
     lists_.bytes = std::as_writable_bytes(engine_.parts().lists.commands());
-    lists_.hashed = false;  // State::memory_hash
+    lists_.hashed = false;  // State::memory_hash covers it
     inputs_.bytes = sim::bytes_of(lines_);
     kernel.add(lists_, sim::Phase::cards, name + ".lists");
     kernel.add(inputs_, sim::Phase::cards, name + ".lines");

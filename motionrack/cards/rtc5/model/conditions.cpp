@@ -1,4 +1,4 @@
-// Messages for the card's conditions.
+// Formats the messages of the card's conditions.
 #include <fmt/format.h>
 
 #include <motionrack/cards/rtc5/map.hpp>

@@ -1,4 +1,4 @@
-// Control commands: settings made between ticks, and answers.
+// Executes control commands, which change settings between ticks, and answers queries.
 #include <fmt/format.h>
 
 #include <motionrack/cards/rtc5/model/engine.hpp>
@@ -18,7 +18,8 @@ Result<void> Engine::execute_list(std::uint32_t list, std::int64_t position) {
     return parts_.execution.execute_at(at);
 }
 
-/// Stops lists, motion, correction, pending starts, laser and recording. `cause`: bit set in the start and stop info.
+/// Stops lists, motion, correction, pending starts, laser and recording. `cause`: the bit to set in the start and stop
+/// info.
 void Engine::stop(std::uint32_t cause) {
     State& s = state_;
     parts_.execution.stop();

@@ -1,5 +1,5 @@
-// Table of the control commands: parameters with ranges, answers, action and source. For frontends that bind commands
-// by name; list commands are in map/commands.hpp.
+// Table of the control commands: parameters with ranges, answers, action and source. Frontends use it to bind the
+// commands by name; map/commands.hpp has the list commands.
 #pragma once
 
 #include <array>
@@ -50,7 +50,8 @@ struct ControlCommand {
         return {all_params.data(), n};
     }
 
-    /// Errors: refused for a wrong number of parameters, a parameter out of range, or a fraction of a whole number.
+    /// Checks parameters. Errors: refused for a wrong number of parameters, a parameter out of range, or a fraction of
+    /// a whole number.
     Result<void> check(std::span<const double> parameters) const;
     /// Returns the parameters' ranges as text, as in " No 0 to 3. Scale -1000000000 to 1000000000 bits/bit.", with the
     /// leading blank; "" without parameters.

@@ -1,4 +1,4 @@
-// .ct5 files: validated reading, writing, and tables from lens data.
+// Reads, checks and writes .ct5 files, and makes tables from lens data.
 #include <fmt/format.h>
 
 #include <algorithm>

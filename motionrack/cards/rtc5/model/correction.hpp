@@ -36,10 +36,11 @@ struct CorrectionFile {
     double bits_per_mm() const { return header[1]; }
 };
 
-/// Errors: refused (the sentence has the found and the required value) for a wrong length, a node outside 0 ..
-/// 1048575 or far from its neighbours, a table that cannot be inverted, an implausible header (also K = 0, except in
-/// the maker's 1:1 table), and a wrong checksum. Programs before version 4.0 wrote an unknown checksum: the note of
-/// such a file says that it was not verified. A file that looks that old only because of a single damage is refused.
+/// Reads a .ct5 file. Errors: refused (the sentence has the found and the required value) for a wrong length, a node
+/// outside 0 .. 1048575 or far from its neighbours, a table that cannot be inverted, an implausible header (also K = 0,
+/// except in the maker's 1:1 table), and a wrong checksum. Programs before version 4.0 wrote an unknown checksum: the
+/// note of such a file says that it was not verified. Refuses a file that looks that old only because of a single
+/// damage.
 Result<CorrectionFile> read_ct5(std::span<const std::uint8_t> bytes, const std::string& name);
 std::vector<std::uint8_t> written_ct5(const CorrectionFile& file);
 

@@ -30,7 +30,8 @@ std::uint32_t next_crc(std::uint32_t crc, std::uint8_t byte) {
 
 constexpr std::size_t program_byte = 4 * program_word;
 
-/// True if a newer program version in the header explains the difference: `effects` are those of the word's bits.
+/// Returns true if a newer program version in the header explains the `difference` of the checksums; `effects`: change
+/// of the checksum by each bit of the version word.
 bool newer_program_fits(std::uint32_t said, std::uint32_t difference, const std::array<std::uint32_t, 32>& effects) {
     constexpr std::uint32_t max_origin = 9;
     for (std::uint32_t origin = 0; origin <= max_origin; ++origin)

@@ -1,4 +1,4 @@
-// Advance of ticks: in blocks with a sink, from vector to vector without.
+// Advances ticks: in blocks if a sink receives samples, else from vector to vector.
 #include <algorithm>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 
@@ -55,7 +55,8 @@ void Engine::piece(std::int64_t end, Sink* sink) {
     advance(static_cast<std::int64_t>(n));
 }
 
-/// Computes the positions of the next ticks: up to `capacity`, or to a command of the pipeline.
+/// Computes the positions of the next ticks: up to `capacity`, or up to a command of the pipeline. Returns their
+/// number.
 std::size_t Engine::produce(std::size_t capacity) {
     std::size_t n = 0;
     while (n < capacity) {
@@ -74,8 +75,8 @@ std::size_t Engine::produce(std::size_t capacity) {
     return n;
 }
 
-/// Without a sink, advances over all ticks of the present activity at once if its flags are known without evaluating
-/// each tick. Returns false if only commands were taken.
+/// Advances over all ticks of the present activity at once, if no sink takes samples and the flags are known without
+/// evaluating each tick. Returns false if it advanced no tick; list commands may have been executed then.
 bool Engine::skip(std::int64_t limit) {
     State& s = state_;
     if (!s.lists.paused) interpreter_.next_step(0);

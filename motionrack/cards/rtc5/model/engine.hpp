@@ -66,7 +66,7 @@ class Engine {
     /// reached.
     bool run_to_rest(std::int64_t ticks, Sink* sink = nullptr);
     std::int64_t tick() const { return state_.tick; }
-    /// True if no list runs, nothing moves or waits to start, and no laser change is pending.
+    /// Returns true if no list runs, nothing moves or waits to start, and no laser change is pending.
     bool at_rest() const;
 
     // ---- answers

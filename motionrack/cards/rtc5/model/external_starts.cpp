@@ -1,4 +1,4 @@
-// Queue of external starts.
+// Queues external starts and begins their lists.
 #include <algorithm>
 #include <motionrack/cards/rtc5/model/external_starts.hpp>
 

@@ -1,4 +1,4 @@
-// External starts: immediate, or after a distance on the conveyor.
+// External starts: the list begins at once, or after a distance on the conveyor.
 #pragma once
 
 #include <cstdint>

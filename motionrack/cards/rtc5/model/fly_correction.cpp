@@ -1,4 +1,4 @@
-// Commands of the correction, and the correction of blocks and of single positions.
+// Executes the commands of the correction, and corrects blocks and single positions.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
@@ -219,7 +219,7 @@ double FlyCorrection::z_now() const {
     return f.z ? z_ + f.scale_z * encoders_.effective(static_cast<std::size_t>(f.z_encoder)) : z_;
 }
 
-/// Returns `p` after the correction of this tick; `backwards`: the position that the correction maps to `p`.
+/// Returns `p` after the correction of this tick; `backwards`: returns the position that the correction maps to `p`.
 Point FlyCorrection::shifted(Point p, bool backwards) const {
     const Fly& f = state_.now;
     double value[2] = {0, 0};
@@ -254,7 +254,7 @@ Point FlyCorrection::shifted(Point p, bool backwards) const {
     return p;
 }
 
-/// Adds the correction to p (so that the correction can be switched off), or removes it.
+/// Adds the correction to `p`, so that it can be switched off without a jump of the output; `backwards`: subtracts it.
 Point FlyCorrection::moved(Point p, const Transform& global, bool backwards) const {
     if (!on()) return p;
     const Point g = through(global, p), offset = shifted(g, backwards) - g;
@@ -286,7 +286,8 @@ Point FlyCorrection::end_parking(Point p, const Transform& global) {
     return moved(p, global, true);
 }
 
-// Positions and counts are linear in time, so their end points suffice.
+// Evaluates three ticks: the first, which uses the sampled counts, the second and the last. In between, positions and
+// counts are linear in time.
 std::optional<PlanExtent> FlyCorrection::steady_extent(const Activity& a, bool moves, Point p, std::int64_t n) const {
     const Fly& f = state_.now;
     const bool encoders = f.kind == FlyKind::encoder;

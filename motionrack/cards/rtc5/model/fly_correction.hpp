@@ -1,4 +1,4 @@
-// The correction for the motion of the part (processing on the fly), by encoder counts or McBSP words.
+// Corrects the position for the motion of the part (processing on the fly), by encoder counts or McBSP words.
 #pragma once
 
 #include <cstddef>
@@ -52,7 +52,7 @@ class FlyCorrection {
     void load_table(std::shared_ptr<const FlyTable> table) { table_ = std::move(table); }
     void copy_table(const FlyCorrection& other) { table_ = other.table_; }
 
-    // ---- the position p before the correction, at changes of the correction; each returns the new one
+    // ---- changes of the correction: each takes the position p before the correction and returns the new one
     /// Switches the correction off and adds it to `p`, so the output does not jump.
     Point leave(Point p, const Transform& global);
     /// Executes park_position; `pause`: the correction is off until end_parking().

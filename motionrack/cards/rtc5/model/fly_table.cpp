@@ -1,4 +1,4 @@
-// Reading and interpolating the 2D compensation of encoder positions.
+// Reads and interpolates the 2D compensation of encoder counts.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The 2D compensation of encoder positions: offsets of both counts, from a text file.
+// The 2D compensation of encoder counts: offsets of both counts, read from a text file.
 //
 //     [Fly2DTable1]          section by its number; only the first section of a number is read
 //     ; Enc0  Enc1  dEnc0  dEnc1

@@ -1,4 +1,4 @@
-// Transforms of the heads and before the correction; tables.
+// Transforms positions for both heads and before the correction, and selects correction tables.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ void multiply(Transform& t) {
 
 }  // namespace
 
-/// Changes the transforms of `head` (1 A, 2 B, 3 both, 4 global), now or with the next jump.
+/// Changes the transforms of `head` (1 A, 2 B, 3 both, 4 global), now or from the next jump on.
 template <class Change>
 Result<void> HeadTransforms::change_transforms(std::string_view command, int head, int at_once, const Change& change) {
     MOTIONRACK_CHECK(check_parameter(command, "HeadNo", head, Kind::head));

@@ -1,10 +1,10 @@
-// Conditions of waits, in a tick and in blocks.
+// Evaluates the conditions of waits, in a tick and in blocks.
 #include <algorithm>
 #include <motionrack/cards/rtc5/model/input_wait.hpp>
 
 namespace motionrack::rtc5 {
 
-/// True if a wait for an encoder or McBSP value ends in a tick with `present`, after a tick with `before`.
+/// Returns true if a wait ends in a tick with the encoder or McBSP value `present` after a tick with `before`.
 bool InputWait::met(std::int64_t before, std::int64_t present) const {
     const std::int64_t value = activity_.value[0], mode = activity_.value[2];
     if (mode > 0) return present >= value;

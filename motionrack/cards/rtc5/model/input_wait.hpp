@@ -1,4 +1,4 @@
-// The end of a wait for encoder counts or McBSP words.
+// Finds the end of a wait for encoder counts or McBSP words.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Loops over blocks. The results do not depend on the order of the elements, so vector instructions of any width give
+// Loops over blocks. Their results do not depend on the order of the elements, so vector instructions of any width give
 // the same bits.
 #include <algorithm>
 #include <bit>
@@ -35,7 +35,7 @@ void transform(double* __restrict x, double* __restrict y, std::size_t n, const 
 }
 
 PlanExtent extent(const double* x, const double* y, std::size_t n) {
-    // Four of each, so one comparison need not wait for the previous one.
+    // Four minima and maxima each, so that one comparison need not wait for the previous one.
     double lx[4], gx[4], ly[4], gy[4];
     for (int k = 0; k < 4; ++k) lx[k] = gx[k] = x[0], ly[k] = gy[k] = y[0];
     std::size_t i = 0;
@@ -56,7 +56,7 @@ PlanExtent extent(const double* x, const double* y, std::size_t n) {
 
 namespace {
 
-/// Both coordinates of a position: two doubles fill one vector register on every target.
+/// Both coordinates of a position: two doubles fill one vector register of every target.
 using Pair = double __attribute__((vector_size(16)));
 using Whole = std::int64_t __attribute__((vector_size(16)));
 

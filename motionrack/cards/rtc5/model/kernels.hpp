@@ -1,4 +1,5 @@
-// The pipeline's steps over blocks of ticks: plain loops that compilers vectorise, with the same bits on every machine.
+// Steps of the pipeline over blocks of ticks: plain loops that compilers vectorise, with the same bits on every
+// machine.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Pending changes of the laser, in half-microseconds.
+// Executes the pending changes of the laser, in half-microseconds.
 #include <algorithm>
 #include <motionrack/cards/rtc5/model/laser_control.hpp>
 

@@ -1,4 +1,4 @@
-// The laser's gate: switched in half-microseconds, at once or later.
+// Switches the laser's gate at once or later, with a resolution of half a microsecond.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class LaserControl {
     const std::int64_t& tick_;
     const Connections& connections_;
     BlockBuffers& buffers_;
-    std::int64_t filled_ = 0;  // the samples are complete up to this tick
+    std::int64_t filled_ = 0;  // tick up to which the laser samples are written
 };
 
 }  // namespace motionrack::rtc5

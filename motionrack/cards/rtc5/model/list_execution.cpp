@@ -1,4 +1,4 @@
-// Start, end and calls of lists.
+// Starts, ends and calls lists.
 #include <fmt/format.h>
 
 #include <motionrack/cards/rtc5/model/list_execution.hpp>
@@ -39,7 +39,7 @@ void ListExecution::end(bool written, std::int64_t tick) {
     if (!written) ++l.ended_unwritten;
     const std::int64_t at = l.current;
     l.loaded |= std::int64_t{list_status_bit("USED1")} << (at < l.begin[1] ? 0 : 1);
-    // Lists that take no time would follow each other without end: at most one change per tick.
+    // Allows one change of lists per tick: lists that take no time would otherwise follow each other without end.
     if (written && (l.auto_change || l.loop) && at < l.begin[2] && l.changed_at != tick) {
         l.auto_change = 0;
         l.changed_at = tick;
@@ -55,7 +55,7 @@ bool ListExecution::call(std::int64_t position, std::int64_t tick) {
     if (position < 0 || position == l.current || l.depth == static_cast<std::int64_t>(max_depth)) return false;
     if (l.called_at != tick) l.calls = 0;
     l.called_at = tick;
-    // Calls that take no time could follow each other without end.
+    // Limits the calls per tick: calls that take no time could follow each other without end.
     if (++l.calls > static_cast<std::int64_t>(calls_per_tick)) {
         l.next = l.current;
         return false;

@@ -1,4 +1,4 @@
-// The execution of lists: position, calls, starts and ends.
+// Execution of lists: position, calls, starts and ends.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +28,12 @@ class ListExecution {
     Result<void> execute_at(std::int64_t position);
     /// Begins a list at a memory position. `cause`: bit set in the start and stop info.
     void begin(std::int64_t position, std::uint32_t cause);
-    /// Ends the running list; the other list may follow. `written`: by set_end_of_list, not by an empty position.
+    /// Ends the running list; the other list may follow. `written`: set_end_of_list ended it, not an empty position.
     void end(bool written, std::int64_t tick);
     /// Calls a subroutine at a memory position; list_return continues behind the call. A call to an
     /// undefined target (-1) is a list_nop. Returns false if the command takes a tick.
     bool call(std::int64_t position, std::int64_t tick);
-    /// Start position of a subroutine; -1: undefined.
+    /// Returns the start position of a subroutine; -1: undefined.
     std::int64_t subroutine(std::int64_t index) const;
     /// Executes list_return. Returns false if the command takes a tick, because no call is open.
     bool come_back();

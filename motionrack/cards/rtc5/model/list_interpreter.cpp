@@ -1,4 +1,4 @@
-// Execution of lists: vectors, arcs, delays, polylines.
+// Executes list commands: vectors, arcs, delays, polylines.
 #include <algorithm>
 #include <motionrack/cards/rtc5/model/list_interpreter.hpp>
 
@@ -25,7 +25,7 @@ bool ListInterpreter::next_step(std::size_t n) {
         }
         if (!l.running) return true;
         if (l.next >= l.begin[3]) {
-            if (n > 0) return false;  // the running state of a list is constant in a block
+            if (n > 0) return false;  // a list may only end at the beginning of a block
             l.current = l.next;
             parts_.list.end(false, tick);
             continue;
@@ -33,7 +33,7 @@ bool ListInterpreter::next_step(std::size_t n) {
         const Command& c = parts_.memory[l.next];
         const ListCommandInfo& what = info(c.op);
         if (n > 0 && what.timing != Timing::shortly && what.timing != Timing::motion) return false;
-        if (n > 0 && parts_.heads.wait_for_jump()) return false;  // a jump would change transforms
+        if (n > 0 && parts_.heads.wait_for_jump()) return false;  // a jump would change the transforms
         if (l.skip) {
             l.skip = 0;
             l.next += what.positions;
@@ -72,7 +72,7 @@ std::size_t ListInterpreter::micro_vectors(std::size_t n, std::size_t capacity) 
     return n;
 }
 
-/// Starts the automatic successor of a finished activity.
+/// Starts the activity that follows a finished one by itself, such as the delay after a jump.
 void ListInterpreter::finish(std::int64_t tick) {
     const Ending ending = state_.activity.ending;
     const Activity over = state_.activity;
@@ -111,7 +111,8 @@ void ListInterpreter::jump_to(Point target) {
     parts_.path.begin_jump(target);
 }
 
-/// Switches the laser on for a mark. Returns false if the mark must wait before it moves; its command is then repeated.
+/// Switches the laser on for a mark. Returns false if the mark must wait before it moves; its command is repeated after
+/// the wait.
 bool ListInterpreter::begin_polyline(std::int64_t tick) {
     if (state_.lists.marking) return true;
     state_.lists.marking = 1;

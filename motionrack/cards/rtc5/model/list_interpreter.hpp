@@ -1,4 +1,4 @@
-// Execution of list commands: each becomes an activity of the path, or acts on another part of the card.
+// Executes list commands: each becomes an activity of the path, or acts on another part of the card.
 #pragma once
 
 #include <cstddef>

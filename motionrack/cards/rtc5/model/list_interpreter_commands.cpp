@@ -1,4 +1,4 @@
-// List commands of the pipeline: corrections on and off, waits, conditions, parking.
+// Executes the list commands of the pipeline: corrections on and off, waits, conditions, parking.
 #include <motionrack/cards/rtc5/model/list_interpreter.hpp>
 
 namespace motionrack::rtc5 {
@@ -39,7 +39,7 @@ void ListInterpreter::pipeline_command(const Command& c) {
         control_command(c);
 }
 
-/// Executes commands that are list forms of control commands.
+/// Executes a list command that is the list form of a control command.
 void ListInterpreter::control_command(const Command& c) {
     const auto whole = [&](std::size_t i) { return static_cast<std::int64_t>(c.p[i]); };
     switch (c.op) {
@@ -78,7 +78,7 @@ void ListInterpreter::control_command(const Command& c) {
     }
 }
 
-/// Executes commands that switch corrections on or off. Returns true if it was one; it has its own tick.
+/// Executes a command that switches a correction on or off. Returns true if it is such a command and has its own tick.
 bool ListInterpreter::fly_command(const Command& c) {
     switch (c.op) {
         case Op::set_fly_x:
@@ -118,7 +118,8 @@ bool ListInterpreter::fly_command(const Command& c) {
     return true;
 }
 
-/// Zeroes the encoders. Returns true if, with a tracking error, one tick passes first and the command is repeated.
+/// Zeroes the encoders, or requests this for the next external start if control_reset_at_start is set. Returns true if,
+/// with a tracking error, one tick passes first and the command is repeated.
 bool ListInterpreter::empty_cycle(std::initializer_list<std::size_t> encoders) {
     Lists& l = state_.lists;
     if (l.again) {

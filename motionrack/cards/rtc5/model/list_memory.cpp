@@ -1,4 +1,4 @@
-// Loading of lists.
+// Loads lists.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,7 +54,8 @@ std::uint64_t hash_at(std::int64_t position, const Command& c) {
     return h;
 }
 
-/// The hash of the memory is the sum over its positions, so a new command costs two hashes instead of 42 MB.
+/// Stores a command. The hash of the memory is the sum of the hashes of its positions, so a new command costs two
+/// hashes instead of one over 42 MB.
 void store(std::span<Command> memory, std::uint64_t& memory_hash, std::int64_t position, const Command& command) {
     Command& stored = memory[static_cast<std::size_t>(position)];
     memory_hash += hash_at(position, command) - hash_at(position, stored);

@@ -1,4 +1,5 @@
-// Memory of the lists: list 1, list 2, and list 3 with the subroutines; input pointer of the next command.
+// Memory of the lists: list 1, list 2, and list 3 with the subroutines; the input pointer gives the next command's
+// position.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ class ListMemory {
 
     const Command& operator[](std::int64_t position) const { return commands_[static_cast<std::size_t>(position)]; }
     std::span<Command> commands() { return commands_.span(); }
-    /// Empties all positions.
+    /// Makes all positions empty.
     void clear();
 
     /// Sets the sizes of list 1 and list 2 in positions; `list2` -1: the remaining memory.

@@ -1,4 +1,4 @@
-// Content of the McBSP's memory locations, or the command that must precede a read.
+// Returns the content of the McBSP's memory locations, or the command that must precede a read.
 #include <fmt/format.h>
 
 #include <array>
@@ -9,7 +9,7 @@ namespace motionrack::rtc5 {
 
 namespace {
 
-/// Commands that direct received words to a location.
+/// Commands after which received words go to a location.
 constexpr std::array<std::string_view, 4> commands_before_reading = {
     "set_fly_x_pos, set_fly_y_pos or set_fly_rot_pos in a list (with any scale), or set_mcbsp_in, set_multi_mcbsp_in "
     "or get_mcbsp",

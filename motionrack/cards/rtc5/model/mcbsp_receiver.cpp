@@ -1,4 +1,4 @@
-// Words received over McBSP.
+// Receives words over McBSP.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -105,7 +105,7 @@ void McBspReceiver::advance(std::int64_t n) {
     const bool come = connections_.inputs != nullptr && connections_.inputs->words(tick_ + n - 2, last);
     m.previous = last[0];
     if (m.online_rot && come) {
-        // Both locations keep the last word of their kind, so each tick is evaluated.
+        // Both memory locations keep the last word of their kind, so every tick is evaluated.
         for (std::int64_t i = 1; i < n; ++i) {
             std::uint32_t word = 0;
             connections_.inputs->words(tick_ + i, {&word, 1});

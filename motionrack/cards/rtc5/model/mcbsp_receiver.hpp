@@ -12,8 +12,8 @@ namespace motionrack::rtc5 {
 
 class McBspReceiver {
   public:
-    /// `state`, `fly` (the present correction, which says how a word is read) and `tick`: parts of the card's state,
-    /// which must outlive this.
+    /// Keeps `state`, `fly` (the present correction, which determines how a word is read) and `tick`: parts of the
+    /// card's state, which must outlive this.
     McBspReceiver(McBsp& state, const Fly& fly, const std::int64_t& tick, const Connections& connections,
                   BlockBuffers& buffers)
         : state_(state), fly_(fly), tick_(tick), connections_(connections), buffers_(buffers) {}

@@ -1,4 +1,4 @@
-// Outputs of blocks, and of the last tick.
+// Computes the outputs of blocks, and of the last tick.
 #include <motionrack/cards/rtc5/model/output_pipeline.hpp>
 
 namespace motionrack::rtc5 {

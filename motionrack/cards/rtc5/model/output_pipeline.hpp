@@ -1,4 +1,4 @@
-// From the positions of a block to the outputs of both heads: transform, correction, flags, heads.
+// Computes the outputs of both heads from the positions of a block: transform, correction, flags, heads.
 #pragma once
 
 #include <cstddef>
@@ -53,7 +53,7 @@ class OutputPipeline {
     SignalRecorder& recorder_;
     BlockBuffers& buffers_;
     PlanExtent extent_;
-    bool evaluated_ = true;  // the output is that of the last tick
+    bool evaluated_ = true;  // the output of the last tick has been computed
 };
 
 }  // namespace motionrack::rtc5

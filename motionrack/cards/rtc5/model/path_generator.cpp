@@ -1,4 +1,4 @@
-// Begin of lines, arcs, delays and waits, and their positions.
+// Begins lines, arcs, delays and waits, and computes their positions.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
@@ -9,7 +9,7 @@ namespace motionrack::rtc5 {
 
 namespace {
 
-constexpr double nearly = 1 - 0x1p-40;  // a length within rounding of a whole number of steps is taken as that number
+constexpr double nearly = 1 - 0x1p-40;  // reduces a number of steps before it is rounded up: tolerates rounding errors
 
 std::int64_t steps_for(double length, double step) {
     const double steps = std::ceil(length / step * nearly);

@@ -1,4 +1,4 @@
-// The path of the present activity, a position every 10 us: lines, arcs, delays, waits.
+// Generates the path of the present activity, a position every 10 us: lines, arcs, delays, waits.
 #pragma once
 
 #include <cstddef>

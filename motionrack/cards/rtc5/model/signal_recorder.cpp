@@ -1,4 +1,4 @@
-// Values of signals, recorded and sent.
+// Computes the values of signals, records and sends them.
 #include <fmt/format.h>
 
 #include <algorithm>

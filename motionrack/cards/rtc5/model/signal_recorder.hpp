@@ -1,4 +1,4 @@
-// Recording of signals, and their transmission over McBSP.
+// Records signals, and sends them over McBSP.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ class SignalRecorder {
     void stop() { recording_.period = 0; }
     /// Returns the ticks to the next sample while recording continues; 0: the present tick.
     std::int64_t ticks_to_sample() const;
-    /// True if the present tick has a sample; called after its commands.
+    /// Returns true if the present tick has a sample; called after the commands of the tick.
     bool samples_now() const { return ticks_to_sample() == 0; }
     /// Records the present tick; requires its output.
     void record();

@@ -1,4 +1,4 @@
-// Reset of the card's state, part by part.
+// Resets the card's state, part by part.
 #include <motionrack/cards/rtc5/model/state.hpp>
 
 namespace motionrack::rtc5 {

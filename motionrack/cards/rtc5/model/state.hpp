@@ -76,7 +76,7 @@ struct BeltCounter {
     std::int64_t travel = 0, zero = 0, raw = 0;
     std::int64_t previous = 0;  ///< count of the previous tick
     std::int64_t simulated = 0, reset_at_start = 0;
-    double slow1 = 0, slow2 = 0;  ///< velocity after the filters, counts/ms
+    double slow1 = 0, slow2 = 0;  ///< velocity after the first and the second filter, counts/ms
     std::int32_t count() const {
         return static_cast<std::int32_t>(static_cast<std::uint32_t>(travel) - static_cast<std::uint32_t>(zero));
     }
@@ -105,7 +105,7 @@ struct Fly {
 };
 
 struct FlyState {
-    Fly now, paused;  ///< paused: correction that park_position paused
+    Fly now, paused;  ///< paused: the correction that park_position paused
     Point park_from, rot_center, offset_2d;
     std::int64_t parked = 0;
     bool on() const { return now.on(); }
@@ -232,7 +232,7 @@ struct Head {
 struct TransformsState {
     Transform global;
     std::array<Head, head_count> heads{};
-    std::int64_t later_count = 0;      ///< transforms pending until the next jump: bit HeadNo
+    std::int64_t later_count = 0;      ///< bit set of the transforms in `later` that apply from the next jump on
     std::array<Transform, 3> later{};  ///< heads A, B, global
 };
 

@@ -1,4 +1,4 @@
-// Flags of positions outside of the field or of the limits.
+// Sets the flags of positions outside the field or the limits.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -8,7 +8,7 @@ namespace motionrack::rtc5 {
 
 namespace {
 
-/// Marking-info bits of an axis that are set below and above the limits of set_fly_limits or set_fly_limits_z.
+/// Bits of the marking info for an axis below and above the limits of set_fly_limits or set_fly_limits_z.
 struct LimitBits {
     std::uint32_t below = 0, above = 0;
 };

@@ -15,7 +15,7 @@ class StatusFlags {
 
     /// Sets bits of the marking info; stores `tick` for those that were clear.
     void raise(std::uint32_t bits, std::int64_t tick);
-    /// Flags that both lines of an encoder changed at one instant.
+    /// Sets the sequence error of an encoder: both of its lines changed at one instant.
     void raise_sequence_error(int encoder, std::int64_t tick) {
         raise(encoder == 0 ? marking_bit("ENCODER_X_SEQUENCE") : marking_bit("ENCODER_Y_SEQUENCE"), tick);
     }
@@ -23,7 +23,7 @@ class StatusFlags {
     /// Raises the flags for the corrected positions of a block that begins at tick `first`; `extent`: their extent.
     void check(const BlockBuffers& b, const PlanExtent& extent, std::int64_t first);
     void check_z(double z, std::int64_t tick);
-    /// True if a position is so far inside the field and its limits that it can set no flag. Axis: 0 X, 1 Y.
+    /// Returns true if a position is so far inside the field and its limits that it can set no flag. Axis: 0 X, 1 Y.
     bool is_inside(double bits, std::size_t axis) const;
 
     /// Executes set_fly_limits or set_fly_limits_z.

@@ -1,4 +1,4 @@
-// Steps of the ellipse about the path.
+// Computes the ellipse about the path.
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/rtc5/model/wobbel_motion.hpp>

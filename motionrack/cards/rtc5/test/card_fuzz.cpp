@@ -1,4 +1,4 @@
-// Jobs from arbitrary numbers.
+// Runs jobs made from arbitrary numbers, and checks the invariants.
 #include <cstring>
 #include <limits>
 #include <motionrack/cards/rtc5/model/engine.hpp>

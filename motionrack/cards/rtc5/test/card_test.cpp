@@ -1,4 +1,4 @@
-// The card on the wires of a rack: the same ticks as the engine alone, at their instants.
+// Tests of the card on the wires of a rack: the same ticks as the engine alone, at their instants.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/rtc5/model/card.hpp>
@@ -56,7 +56,7 @@ TEST(Rtc5Card, TheLaserWireChangesAtHalfMicroseconds) {
                          *list_command(Op::mark_abs, {100, 0}), *list_command(Op::set_end_of_list, {})});
     ASSERT_TRUE(card.engine().execute_list(1));
     kernel.run_until(milliseconds(1));
-    // Tick 0 had ended before the command; ticks 1 to 10 move.
+    // The command comes after the end of tick 0, so ticks 1 to 10 move.
     const std::vector<Listener::Heard> expected = {{1, 1, microseconds(10)},
                                                    {0, 1, microseconds(10) + nanoseconds(3'500)},
                                                    {1, 0, microseconds(110)},

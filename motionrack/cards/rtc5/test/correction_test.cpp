@@ -109,7 +109,7 @@ TEST(Rtc5Correction, DetectsAnyInvertedBitInAFileOfAnyProgram) {
         }
     }
     auto bytes = written_ct5(plain_file());
-    bytes[40] = 0, bytes[41] = 0;  // more than one bit: it claims program 0
+    bytes[40] = 0, bytes[41] = 0;  // changes more than one bit, so the header names program 0
     EXPECT_EQ(refusal_of(bytes),
               "x: its checksum would fit if its header named another program version: it is damaged. The file was not "
               "loaded");

@@ -1,4 +1,4 @@
-// The same bits with every compiler and optimisation level: random jobs' samples and states, as one number.
+// Checks that random jobs give the same samples and states, as one hash, with every compiler and optimisation level.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -44,7 +44,7 @@ TEST(Rtc5Card, SamplesAndStatesHaveTheSameBitsOnEveryCompiler) {
         std::memcpy(bytes.data(), &card.state(), sizeof(State));
         for (std::size_t i = 0; i < offsetof(State, memory_hash); ++i) mixer.mix(bytes[i]);
     }
-    // The number of g++ 12 -O3 and clang 14 -O0; it changes with the rules and the random jobs.
+    // The hash computed by g++ 12 -O3 and clang 14 -O0; it changes with the rules and the random jobs.
     EXPECT_EQ(mixer.hash, 0xCDDE303A03E3F080ull);
 }
 

@@ -1,4 +1,4 @@
-// Processing on the fly through the public interface: results of the source's formulas.
+// Tests of processing on the fly through the public interface, with results of the source's formulas.
 #include <cmath>
 #include <motionrack/cards/rtc5/test/rig.hpp>
 
@@ -7,7 +7,7 @@ namespace {
 
 constexpr double fly_k = 5184;  // bits/mm
 
-/// Inputs with encoder counts that grow at a constant rate, and McBSP words from a list.
+/// Inputs: encoder counts that grow at a constant rate, and McBSP words from a list.
 class Belt final : public Inputs {
   public:
     double per_tick = 0;
@@ -35,7 +35,7 @@ TEST(Rtc5Fly, AnEncoderOf2000CountsAMillimetreMovesTheOutputByAMicrometreATick) 
     rig.put(Op::long_delay, {10'000});
     rig.go();
     EXPECT_EQ(rig.x[5], 0);
-    EXPECT_EQ(rig.x[6], 5);  // 5.184
+    EXPECT_EQ(rig.x[6], 5);  // 2 counts are 1 um, 5.184 bits
     EXPECT_EQ(rig.x[5 + 10'000], 51'840);
     EXPECT_EQ(rig.y[5 + 10'000], 0);
 }
@@ -230,7 +230,7 @@ TEST(Rtc5Fly, AMissedWaitLastsTwoToThe31Counts) {
 }
 
 TEST(Rtc5Fly, ASquareOnABeltIsASquareOnThePart) {
-    // 10 mm at 500 mm/s on a belt at 100 mm/s: corners in the coordinates of the part.
+    // Marks a square of 10 mm at 500 mm/s on a belt at 100 mm/s; the corners are in part coordinates.
     const double corners_off[5][2] = {{0, 0}, {8, 0}, {6, 10}, {-6, 10}, {-8, 0}},
                  corners_on[5][2] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}};
     for (const bool fly : {false, true}) {
@@ -326,7 +326,7 @@ TEST(Rtc5Fly, FlyReturnJumpsFromTheCorrectedPosition) {
     rig.put(Op::fly_return, {0, 0});
     rig.go();
     EXPECT_EQ(rig.x[100], 1000);
-    EXPECT_EQ(rig.x[101], 918);  // 1010 bits in eleven steps
+    EXPECT_EQ(rig.x[101], 918);  // 1010 bits at 100 bits per tick take eleven ticks
     EXPECT_EQ(rig.last_x(), 0);
     EXPECT_FALSE(rig.card.state().fly.on());
 }

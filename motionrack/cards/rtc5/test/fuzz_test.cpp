@@ -1,4 +1,4 @@
-// Random commands with arbitrary numbers; the invariants are in card_fuzz.hpp.
+// Runs the fuzzer with random commands and arbitrary numbers; card_fuzz.hpp lists the invariants.
 //
 // MOTIONRACK_SEED and MOTIONRACK_JOBS in the environment select another and a longer run.
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Random jobs.
+// Generates random jobs.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/cards/rtc5/test/job.hpp>

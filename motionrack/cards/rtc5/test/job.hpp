@@ -55,10 +55,10 @@ struct Act {
 
 struct Job {
     std::vector<Command> list1, list2;
-    std::vector<std::vector<Command>> subroutines;  ///< commands of each, without list_return
+    std::vector<std::vector<Command>> subroutines;  ///< commands of each subroutine, without list_return
     std::vector<Act> acts;
-    bool inputs = false;  ///< counts and words are functions of the tick
-    bool steady = false;  ///< the correction table of a lens is used
+    bool inputs = false;  ///< encoder counts and McBSP words are functions of the tick
+    bool steady = false;  ///< drawn at random; no test reads it
     double rate[2] = {};  ///< encoder counts per tick
     std::int64_t word_every = 1;
 };
@@ -90,7 +90,7 @@ class JobMaker {
     Act act();
 
     std::mt19937_64 random_;
-    bool calm_ = false;  ///< mostly path commands, few settings
+    bool calm_ = false;  ///< generates mostly commands of the path and few settings
 };
 
 }  // namespace motionrack::rtc5

@@ -1,4 +1,4 @@
-// Lists, paths, laser, starts, corrections and refusals, from outside.
+// Tests of lists, paths, laser, starts, corrections and refusals through the public interface.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -25,17 +25,17 @@ TEST(Rtc5List, DelaysFollowJumpsCornersAndPolylines) {
     rig.put(Op::set_laser_delays, {25, 30});
     rig.put(Op::set_mark_speed, {1000});
     rig.put(Op::set_jump_speed, {1000});
-    rig.put(Op::jump_abs, {100, 0});  // 10 + 10
-    rig.put(Op::mark_abs, {200, 0});  // 10 + 3
+    rig.put(Op::jump_abs, {100, 0});  // 10 ticks of motion, 10 of jump delay
+    rig.put(Op::mark_abs, {200, 0});  // 10 ticks of motion, 3 of polygon delay
     rig.put(Op::set_mark_speed, {2000});
-    rig.put(Op::mark_abs, {200, 100});  // 5 + 7
+    rig.put(Op::mark_abs, {200, 100});  // 5 ticks of motion, 7 of mark delay
     rig.put(Op::jump_abs, {0, 0});
     rig.go();
     EXPECT_EQ(rig.laser[20], 0);
-    EXPECT_EQ(rig.laser[21], 15);  // on 12.5 us after the first step
+    EXPECT_EQ(rig.laser[21], 15);  // the laser is on 12.5 us after the first step
     for (std::size_t i = 22; i < 39; ++i) EXPECT_EQ(rig.laser[i], 20) << i;
     EXPECT_EQ(rig.laser[38], 20);
-    EXPECT_EQ(rig.laser[39], 10);  // off 15 us after the last step's tick
+    EXPECT_EQ(rig.laser[39], 10);  // the laser is off 15 us after the last step's tick
     EXPECT_EQ(rig.laser[40], 0);
     EXPECT_EQ(rig.x[44], rig.x[37]) << "mark delay";
 }
@@ -223,7 +223,7 @@ TEST(Rtc5Starts, TrackDelaysQueueEightStartsAndAStartDuringAListIsLost) {
 
 TEST(Rtc5Starts, NotifiesAListenerOfEachStartAndEndInItsTick) {
     struct Told final : ListListener {
-        std::vector<std::pair<std::int64_t, int>> all;  // 0 to 2: StartFate, 3: end
+        std::vector<std::pair<std::int64_t, int>> all;  // 0 to 2: fate of a start; 3: end of a list
         void started(std::int64_t tick, StartFate fate) override { all.emplace_back(tick, static_cast<int>(fate)); }
         void ended(std::int64_t tick) override { all.emplace_back(tick, 3); }
     } reported;
@@ -235,7 +235,7 @@ TEST(Rtc5Starts, NotifiesAListenerOfEachStartAndEndInItsTick) {
     rig.put(Op::long_delay, {20});
     rig.put(Op::set_end_of_list);
     rig.card.parts().starts.trigger();
-    rig.run(10);  // in tick 0: ten counts exist, 1010 after tick 100
+    rig.run(10);  // the start in tick 0 at ten counts is due at 1010, which is tick 100
     rig.card.parts().starts.trigger();
     rig.run(50);
     for (int i = 0; i < 7; ++i) rig.card.parts().starts.trigger();
@@ -254,7 +254,7 @@ TEST(Rtc5Starts, EquidistantPartsAreCountedFromThePreviousStart) {
     rig.put(Op::set_end_of_list);
     rig.card.parts().starts.trigger();
     rig.run(110);
-    rig.card.parts().starts.trigger();  // in tick 110, ten ticks late: the part's position is counted from the first
+    rig.card.parts().starts.trigger();  // in tick 110: ten ticks late, but counted from the first start
     rig.run(200);
     std::vector<std::size_t> at;
     for (std::size_t i = 1; i < rig.x.size(); ++i)
@@ -316,7 +316,7 @@ TEST(Rtc5Card, SettingsOfOneCardDoNotAffectAnother) {
 
 TEST(Rtc5List, TheTimeToStandstillIsTheSameWithAndWithoutObservers) {
     for (const double target :
-         {51'100.0, 51'200.0, 51'300.0, 102'400.0}) {  // 511, 512, 513, 1024 ticks: ends of blocks
+         {51'100.0, 51'200.0, 51'300.0, 102'400.0}) {  // 511, 512, 513 and 1024 ticks: ends of blocks
         Rig seen, unseen;
         for (Rig* rig : {&seen, &unseen}) {
             rig->card.parts().path.set_jump_speed(10'000);

@@ -1,4 +1,4 @@
-// Random jobs give the same result on the card, which works in blocks and spans, and on its slow twin.
+// Compares the card, which works in blocks and spans, with its slow twin: random jobs must give the same result.
 //
 // tests/oracle/harness.hpp names the variables of the environment that select other and more jobs.
 #include <fmt/format.h>

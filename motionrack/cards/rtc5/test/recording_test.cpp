@@ -1,4 +1,4 @@
-// Recording of signals, single values, words sent over McBSP, the disabled laser, and the opening of lists.
+// Tests of recorded signals, single values, words sent over McBSP, the disabled laser, and the opening of lists.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/rtc5/test/rig.hpp>
@@ -24,7 +24,7 @@ TEST(Rtc5Recording, SetTrigger4TakesASampleAtOnceAndThenOnePerPeriod) {
     rig.put(Op::set_trigger4, {3, 7, 20, 43, 8});
     micro_vectors(rig, 10);
     rig.go();
-    // set_fly_x uses the tick before set_trigger4's: 10 counts per tick, 5 bits.
+    // set_fly_x takes the tick before that of set_trigger4: 10 counts per tick, which are 5 bits.
     EXPECT_EQ(recorded(rig.card, 0), (std::vector<std::int32_t>{5, 30 + 20, 60 + 35, 90 + 50}));
     EXPECT_EQ(recorded(rig.card, 1), recorded(rig.card, 0));
     EXPECT_EQ(recorded(rig.card, 2), (std::vector<std::int32_t>{10, 40, 70, 100}));
@@ -219,7 +219,7 @@ TEST(Rtc5List, StatusReportsWhichListIsLoadedReadyBusyAndUsed) {
     rig.put(Op::long_delay, {10});
     rig.put(Op::set_end_of_list);
     EXPECT_EQ(bits(), ready1);
-    ASSERT_TRUE(rig.card.execute_list(3));  // odd numbers are list 1
+    ASSERT_TRUE(rig.card.execute_list(3));  // odd numbers select list 1
     rig.run(1);
     EXPECT_EQ(bits(), ready1 | busy1);
     EXPECT_EQ(rig.card.parts().lists.load_list(1, 0).value(), 0u);

@@ -1,4 +1,4 @@
-// A card for the tests: short functions for lists, and its samples.
+// A card for tests: short functions that load and run lists, and the samples of the card.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A start that waits for its count, independent of changes of the card's state: after a rewind and after a reset the
-// card behaves like one without that history.
+// Tests that a start which waits for its count does not depend on earlier states of the card: after a rewind and after
+// a reset the card behaves like one without that history.
 #include <algorithm>
 #include <motionrack/cards/rtc5/test/rig.hpp>
 
@@ -60,7 +60,8 @@ struct Station {
 };
 
 TEST(Rtc5Starts, APendingStartIsDueAtItsCountAfterARewind) {
-    // 60 counts for ten ticks only: a later query, or one from another position, does not see them.
+    // The encoder has 60 counts for ten ticks only; a query at a later time, or from another position, must not use
+    // them.
     const std::vector<Jumps::Jump> jumps = {{20, 60}, {30, 0}, {700, 60}};
     Station rewound(jumps), fresh(jumps);
     rewound.rig.run(10);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double station_k = 8656;  // bits/mm
 
-/// Connection of the card to a marking machine.
+/// Connects a card to a marking machine.
 class Machine final : public Sink, public Inputs {
   public:
     explicit Machine(const parts::StationSettings& settings) : station(*parts::MarkingStation::make(settings)) {
@@ -39,8 +39,7 @@ class Machine final : public Sink, public Inputs {
         EXPECT_TRUE(card.execute_list(1));
         EXPECT_TRUE(card.run_to_rest(1'000'000, this));
         station.workpiece().finish();
-        // The part's coordinates begin at the start of the correction: at the travel of the tick that zeroes the
-        // encoder, which is tick 0.
+        // The origin of the part is at the travel of tick 0, which zeroes the encoder and starts the correction.
         const std::vector<parts::DrawnSegment> drawing = {
             {{-5, -5}, {5, -5}}, {{5, -5}, {5, 5}}, {{5, 5}, {-5, 5}}, {{-5, 5}, {-5, -5}}};
         return station.workpiece().compare(drawing, 0.02, 0.03);
@@ -62,7 +61,7 @@ TEST(Rtc5Station, ASquareOnABeltIsDistortedWithoutCorrectionAndRightWithIt) {
     Machine without(belt(100)), with(belt(100));
     const auto off = without.square({}), on = with.square({*list_command(Op::set_fly_x, {station_k / 1000})});
     EXPECT_GT(off.max_mm, 5);
-    // One count and one tick.
+    // The tolerance is one count and the travel of one tick.
     EXPECT_LE(on.max_mm, 0.0021);
     EXPECT_EQ(on.missing_mm, 0);
     EXPECT_EQ(with.card.parts().flags.take_marking_info(), 0u);
@@ -89,7 +88,7 @@ TEST(Rtc5Station, TheTrackingErrorCompensatesTheLagOfTheMirrors) {
     Machine plain(settings), ahead(settings);
     EXPECT_NEAR(plain.station.galvo().lag_us(), 150, 0.1);
     ahead.card.parts().encoders.set_tracking_error(15, 0);
-    for (Machine* m : {&plain, &ahead}) m->laser_delay = 300;  // the laser follows the mirrors
+    for (Machine* m : {&plain, &ahead}) m->laser_delay = 300;  // units of 0.5 us: 150 us, as the mirrors
     const double late = plain.square({start}).max_mm, right = ahead.square({start}).max_mm;
     EXPECT_NEAR(late, 0.075, 0.012) << "150 us at 500 mm/s";
     EXPECT_LT(right, 0.02);

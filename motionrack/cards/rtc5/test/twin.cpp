@@ -1,4 +1,4 @@
-// The slow RTC5: inputs, starts, correction, output, laser.
+// The twin of the RTC5: inputs, starts, correction, output, laser.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>

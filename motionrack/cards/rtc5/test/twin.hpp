@@ -103,7 +103,7 @@ class Twin {
 
     std::uint32_t word = 0, word_before = 0;
     std::deque<std::uint32_t> words;
-    std::optional<std::int32_t> locations[4];  // empty: no value yet
+    std::optional<std::int32_t> locations[4];  // empty: the location has no value yet
     std::int32_t typed[8] = {}, in_mode = 0, round = 0;
     bool to_zero = false, multi = false, heard = false;
     bool online[3] = {}, online_matrix = false;
@@ -140,7 +140,7 @@ class Twin {
     std::vector<std::int64_t> returns;
     std::int64_t calls = 0, called_at = -1;
 
-    double across = 0, along = 0, wobbel_turns = 0;  // wobbel
+    double across = 0, along = 0, wobbel_turns = 0;  // parameters of the wobbel
     std::int64_t wobbel_step = 0;
     Xy wobbel_direction{1, 0}, wobbel_offset;
 
@@ -153,7 +153,7 @@ class Twin {
         enum What { nothing, line, arc, hold, wait } what = nothing;
         std::int64_t done = 0, steps = 0;
         Xy from, step, to, direction;
-        char ending = 0;  // j jump, m mark, l laser off
+        char ending = 0;  // delay after the line: j jump delay, m mark delay; l: the laser goes off
         Command command;
     } doing;
 

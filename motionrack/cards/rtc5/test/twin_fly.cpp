@@ -1,4 +1,4 @@
-// The slow RTC5: waits, and processing on the fly.
+// The twin of the RTC5: waits, and processing on the fly.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>

@@ -1,4 +1,4 @@
-// The slow RTC5: lists and paths.
+// The twin of the RTC5: lists and paths.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>

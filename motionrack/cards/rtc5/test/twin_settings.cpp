@@ -1,4 +1,4 @@
-// The slow RTC5: transforms, McBSP settings, subroutines, wobbel, recording.
+// The twin of the RTC5: transforms, McBSP settings, subroutines, wobbel, recording.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>

@@ -1,4 +1,4 @@
-// The wobbel about a marked path, and subroutines.
+// Tests of the wobbel about a marked path, and of subroutines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -99,7 +99,7 @@ TEST(Rtc5Subroutines, AMissingOrTooDeepSubroutineIsANop) {
     rig.put(Op::micro_vector_rel, {1, 0, -1, -1});
     rig.put(Op::list_return);
     ASSERT_TRUE(rig.card.parts().lists.load_sub(0));
-    rig.put(Op::list_return);  // deleted
+    rig.put(Op::list_return);  // deletes the subroutine, which has no commands
     EXPECT_FALSE(rig.card.parts().lists.load_sub(1024));
     rig.begin();
     rig.put(Op::sub_call, {0});
@@ -122,7 +122,7 @@ TEST(Rtc5Subroutines, AMissingOrTooDeepSubroutineIsANop) {
 
 TEST(Rtc5Subroutines, CallsThatTakeNoTimeDoNotHang) {
     Rig rig;
-    for (int depth = 0; depth < 20; ++depth) {  // 2^20 calls without a tick
+    for (int depth = 0; depth < 20; ++depth) {  // depth 20: 2^20 calls that take no tick
         ASSERT_TRUE(rig.card.parts().lists.load_sub(static_cast<std::uint32_t>(depth)));
         if (depth > 0) rig.put(Op::sub_call, {depth - 1.0}), rig.put(Op::sub_call, {depth - 1.0});
         rig.put(Op::set_mark_speed, {2000});
