@@ -1,4 +1,4 @@
-// Cards of the process, their time, and errors.
+// The cards of the process, their common time, and errors.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -209,7 +209,7 @@ static_assert(RTC5_NO_CARD == rtc5::error_bit("NO_CARD") && RTC5_ACCESS_DENIED =
               RTC5_REJECTED == rtc5::error_bit("REJECTED"));
 
 UINT selected() noexcept {
-    if (inside_handler) return 1;  // rejected there anyway
+    if (inside_handler) return 1;  // every library function is rejected there
     return process().alone([](CardTable& bench) { return bench.selected; });
 }
 

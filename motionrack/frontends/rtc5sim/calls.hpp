@@ -1,5 +1,5 @@
-// Runs every function of rtc5sim.h: one at a time, on its card; errors as sentences and board error bits, no exception
-// out.
+// Executes the functions of rtc5sim.h: one at a time, each on its card. Errors become sentences and error bits of the
+// board; no exception leaves a function.
 #pragma once
 
 #include <rtc5sim.h>
@@ -21,7 +21,7 @@ namespace motionrack::rtc5sim {
 /// Encoder of a conveyor with a constant count rate, read by the board's counters.
 class Belt final : public rtc5::Inputs {
   public:
-    /// From `tick` on, the encoder counts from `count` at this rate.
+    /// Sets the rate: from `tick` on, the encoder counts from `count` at this rate.
     void set(std::size_t encoder, std::int64_t tick, std::int64_t count, double counts_per_s) {
         lines_[encoder] = {tick, count, counts_per_s};
     }
@@ -39,9 +39,9 @@ class Belt final : public rtc5::Inputs {
 };
 
 struct Card {
-    /// A stand-alone card.
+    /// Makes a stand-alone card.
     explicit Card(UINT n) : number(n), own(std::make_unique<rtc5::Engine>()), engine(*own) {}
-    /// A card in a rack.
+    /// Makes a card of a rack.
     Card(UINT n, rtc5::Card& card) : number(n), wired(&card), engine(card.engine()) {}
 
     UINT number = 0;  ///< from 1
@@ -52,7 +52,7 @@ struct Card {
     UINT errors = 0, last_error = 0;  ///< error bits of the board
 };
 
-/// Cards of the process. All share one time.
+/// Cards of the process, which share one time.
 class CardTable {
   public:
     /// Returns a card. The first use creates as many cards as RTC5SIM_CARDS gives, else 1.
@@ -85,7 +85,7 @@ class CardTable {
 
 calls::Process<CardTable>& process();
 
-/// True while this thread runs a samples handler. Library functions are refused there.
+/// True while this thread runs a samples handler, in which library functions are refused.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 extern thread_local bool inside_handler;
 
@@ -93,7 +93,7 @@ extern thread_local bool inside_handler;
 /// be free.
 void failed(std::string_view who, std::string_view sentence) noexcept;
 
-/// Returns the card that functions without n_ use.
+/// Returns the number of the card that functions without n_ use.
 UINT selected() noexcept;
 
 /// Runs `call` with the bench; `call` returns a Result<Value>.
@@ -133,7 +133,7 @@ void command(std::string_view who, UINT number, Call call) noexcept {
     });
 }
 
-/// The part of the engine that a command belongs to, or the engine itself.
+/// Returns the part of the engine that a command belongs to, or the engine itself.
 template <class Part>
 Part& part_of(rtc5::Engine& engine) {
     if constexpr (std::is_same_v<Part, rtc5::ListMemory>)
@@ -156,7 +156,7 @@ Part& part_of(rtc5::Engine& engine) {
         return engine;
 }
 
-/// A command that is one call of the card's engine, or of a part of it.
+/// Executes a command that is one call of the card's engine, or of a part of it.
 template <class Part, class Answer, class... Declared, class... Parameters>
 void call(std::string_view who, UINT number, Answer (Part::*member)(Declared...), Parameters... parameters) noexcept {
     command(who, number, [&](Card& card) -> Result<void> {
@@ -191,10 +191,10 @@ Result<void> checked(rtc5::Op op, double parameter);
 inline rtc5::Point point(long x, long y) {
     return {static_cast<double>(x), static_cast<double>(y)};
 }
-/// Converts to a 32-bit integer.
+/// Converts a number to a 32-bit integer. Errors: refused if it does not fit.
 Result<std::int32_t> whole32(std::string_view what, long value);
 using calls::check_pointer;
-/// Converts to the engine's int; the engine rejects larger values.
+/// Converts a number to the engine's int; a number above 1,000,000 becomes 1,000,000, which the engine rejects.
 int small(UINT value);
 
 /// Converts the error of `result` to the board's error kind `trouble`.

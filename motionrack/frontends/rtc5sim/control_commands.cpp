@@ -11,7 +11,7 @@ namespace {
 bool busy(const Card& card) {
     return (card.engine.status() & (rtc5::status_bit("BUSY") | rtc5::status_bit("INTERNAL_BUSY"))) != 0;
 }
-/// Error kind if the card does not start.
+/// Returns the kind of error of a command that the card refuses: machine if the card is busy, else refused.
 ErrorKind busy_or_wrong(const Card& card) {
     return busy(card) ? ErrorKind::machine : ErrorKind::refused;
 }

@@ -30,7 +30,7 @@ Result<void> check_encoder(UINT encoder) {
                 fmt::format("encoder {} is out of range; it must be 0 or 1. Nothing was changed.", encoder));
 }
 
-/// Runs `call`, a Result<void>. Returns 0, or -1 on an error.
+/// Runs `call`, which returns a Result<void>. Returns 0, or -1 on an error.
 template <class Call>
 int done(const char* who, UINT number, Call call) {
     return with_card(who, number, -1, [&](Card& card) -> Result<int> {

@@ -1,4 +1,4 @@
-// Additional functions for cards of a rack: opening it, and its parts.
+// Additional functions for the cards of a rack: open the rack, read and set its parts.
 #include <motionrack/frontends/rtc5sim/calls.hpp>
 
 using namespace motionrack::rtc5sim;

@@ -1,4 +1,4 @@
-// Cards, time, errors, files, inputs of a card, and the exported names of the C library.
+// Tests of the cards, time, errors, files and inputs of the C library, and of its exported names.
 #include <gmock/gmock.h>
 #include <unistd.h>
 

@@ -1,5 +1,6 @@
-// Scale of the correction by position words, determined as in the manual (1.10 d, page 198): read_mcbsp, move,
-// read_mcbsp, i = (end - start) / distance, scale = K / i. The mark is then at its intended position on the part.
+// Tests that the scale of a correction by position words, determined as in the manual (1.10 d, page 198), is right:
+// read_mcbsp, move, read_mcbsp, i = (end - start) / distance, scale = K / i. A mark is then at its intended position on
+// the part.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -13,7 +14,7 @@ using testing::HasSubstr;
 
 constexpr double k = 5184;  // bits/mm
 
-/// A belt that is stationary at first; its source sends one axis, or X and Y in one word.
+/// Returns a rack file with a belt that is stationary at first; its source sends one axis, or X and Y in one word.
 std::string standing_belt(double direction_deg, bool two_axes) {
     return fmt::format(
         "[card.scan]\ntype = \"rtc5\"\nlist_memory = 16000\n"
@@ -37,7 +38,7 @@ struct Mm {
     double x = 0, y = 0;
 };
 
-/// Distance moved by the part, as measured with a ruler.
+/// Returns the distance that the part has moved, as measured with a ruler.
 Mm gone(double direction_deg) {
     const double way = true_of("line.position_mm"), angle = direction_deg * std::acos(-1.0) / 180;
     return {way * std::cos(angle), way * std::sin(angle)};
@@ -150,7 +151,7 @@ TEST(Rtc5simCalibration, MatchesThePrintedExampleForXAndForY) {
     }
 }
 
-/// Both increments from position 0, bits/mm.
+/// Returns both increments since position 0, bits/mm.
 Mm increments(double direction_deg) {
     const Mm start = halves(read_mcbsp(0)), from = gone(direction_deg);
     drive(100), rtc5sim_advance_us(300'000), drive(0), rtc5sim_advance_us(1000);

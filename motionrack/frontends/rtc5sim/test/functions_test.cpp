@@ -1,4 +1,4 @@
-// Every command once: the library and the card itself give the same result.
+// Calls every command once: the library and the card must give the same result.
 #include <gmock/gmock.h>
 
 #include <functional>
@@ -24,7 +24,7 @@ void put(Engine& card, Op op, std::initializer_list<double> parameters) {
     ASSERT_TRUE(card.put(*command));
 }
 
-/// A list command with its parameters.
+/// Makes a row of the comparison for a list command with its parameters.
 Row listed(Op op, void (*library)(), std::initializer_list<double> p = {}) {
     return {rtc5::info(op).name.data(), library, [op, all = std::vector<double>(p)](Engine& card) {
                 const auto command = rtc5::list_command(op, all);

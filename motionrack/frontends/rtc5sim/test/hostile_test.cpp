@@ -1,5 +1,5 @@
-// Invalid numbers, positions, words and files in the C library: each gives a sentence and the board's error bits and
-// leaves the state unchanged.
+// Calls the C library with invalid numbers, positions, words and files: each call gives a sentence and the board's
+// error bits and leaves the state unchanged.
 #include <gmock/gmock.h>
 #include <unistd.h>
 

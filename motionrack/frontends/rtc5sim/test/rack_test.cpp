@@ -1,4 +1,4 @@
-// Cards of a rack over the C library: its wires, its time, its parts.
+// Tests of the cards of a rack through the C library: their wires, their time, the parts of the rack.
 #include <gmock/gmock.h>
 
 #include <algorithm>
