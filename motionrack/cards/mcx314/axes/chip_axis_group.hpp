@@ -21,8 +21,8 @@ namespace motionrack::mcx314 {
 
 class ChipAxisGroup final : public control::AxisGroup {
   public:
-    /// Part of each axis' acceleration that the planner must reserve, because the chip's speeds and accelerations are
-    /// whole numbers.
+    /// Fraction of each axis' acceleration that the planner must reserve, because the chip's speeds and accelerations
+    /// are whole numbers.
     static constexpr double accel_reserve = 0.03;
 
     /// The driver must outlive this object.
@@ -36,7 +36,8 @@ class ChipAxisGroup final : public control::AxisGroup {
     Result<void> follow(const control::PlannedMove& move) override;
     Result<void> finish() override;
     const control::DriveConstraints* drive_constraints() const override { return &rule_; }
-    /// MCX314As: the channels (one bit each) with the probe at IN3, High while it touches. Initially 0: no probe.
+    /// Sets the channels (one bit each) with a touch probe at IN3, which is High while it touches; MCX314As only.
+    /// Initially 0: no probe.
     void set_probe(unsigned channels) { probe_channels_ = channels; }
     Result<control::ProbeResult> probe(const control::PlannedMove& move, bool release) override;
     void stop(bool immediate) override;
@@ -44,9 +45,9 @@ class ChipAxisGroup final : public control::AxisGroup {
     std::vector<control::PathWarning> take_path_warnings() override;
     std::vector<control::MoveStart> take_move_starts() override { return std::exchange(starts_, {}); }
 
-    /// Speed of one V unit in pulses/s; larger immediate rate changes are junctions, not ramps.
+    /// Returns the speed of one V unit, pulses/s. The chip's ramps change the speed by one unit at a time.
     double speed_step_hz() const { return rules::clock_hz / range_; }
-    /// Segments written to the chip since begin().
+    /// Returns the number of segments written to the chip since begin().
     std::int64_t segments() const { return segments_; }
 
   private:
@@ -108,7 +109,7 @@ class ChipAxisGroup final : public control::AxisGroup {
     std::int64_t segments_ = 0;
     bool ran_alone_ = false;    ///< the queued segment ended before the host saw its start
     Instant runs_until_{};      ///< estimated end of the running segment
-    double running_speed_ = 1;  ///< V at its end
+    double running_speed_ = 1;  ///< V at the end of the running segment
     unsigned probe_channels_ = 0;
     bool probing_ = false;
     std::array<std::int32_t, channel_count> saved_before_ = {};  ///< BR when the probe was armed

@@ -13,14 +13,14 @@
 
 namespace motionrack::mcx314 {
 
-/// R of the second axis over that of the first, minus one, for constant vector speed of two axes.
+/// R of the second axis divided by R of the first, minus one, which gives two axes a constant vector speed.
 inline constexpr double both_axes_extra = 0.41421356237309503;
 
 /// Limits of rules:: as doubles.
 inline constexpr double max_units = static_cast<double>(rules::max_units),
                         speed_carry = static_cast<double>(rules::speed_carry);
 
-/// The whole pulse or count nearest to a position.
+/// Returns the whole pulse or count nearest to a position.
 inline std::int64_t nearest_pulse(double place, double pulses_per_unit) {
     return static_cast<std::int64_t>(std::floor(place * pulses_per_unit + 0.5));
 }
@@ -31,23 +31,25 @@ struct AxisMap {
     control::MachineLimits limits = {};
     double arc_tolerance_mm = 0.002;  ///< maximum deviation of chords from an arc that the chip cannot draw itself
 
-    /// The whole pulse nearest to a position, per channel.
+    /// Returns the whole pulse nearest to a position, for each channel.
     Pulses4 pulses(const control::Point& position) const;
 };
 
-/// Basic pulses of the chip per mm (degree) along `tangent` of a path. The longest of the moving axes in `path`
-/// determines them; with constant vector speed, a pulse of two axes counts 1.414. `auxiliary`: a fourth moving axis
-/// that is not interpolated, or -1.
+/// The axes that move on a path, as the chip draws them.
 struct DriveMotion {
     bool constant_vector = false;
     int auxiliary = -1;         ///< channel
     std::uint8_t channels = 0;  ///< the moving channels, one bit each
 };
-/// `axes`: the axes that may move, one bit each; 0: those that do.
+/// Returns which axes move on `path`, and how. `axes`: the machine axes that may move, one bit each; 0: those that
+/// `path` moves.
 DriveMotion drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes = 0);
+/// Returns the basic pulses of the chip per mm (degree) along `tangent` of the path. The fastest of the interpolated
+/// axes determines them; with constant vector speed, a pulse of two axes counts 1.414.
 double basic_pulses_along(const AxisMap& map, const DriveMotion& drawing, const control::Point& tangent);
 
-/// Maximum angle between an arc's tangent at its ends and its first or last chord, radians; 0: not drawn with chords.
+/// Returns the maximum angle between an arc's tangent at its ends and its first or last chord, radians; 0 if the path
+/// is not drawn with chords.
 double turn_of_first_chord(const AxisMap& map, const control::Geometry& path);
 
 /// A requested arc of less than a turn: absolute pulses of two axes with equal pulse size.
@@ -70,9 +72,9 @@ struct ChipArc {
         0;  ///< maximum distance of its circle from the true one, excluding the chip's own half pulse
 };
 
-/// Selects, of the integer centres near the true one, the centre whose arc ends exactly at `end` with the least
-/// deviation; otherwise the one with the least deviation. Empty if none gives an arc of about that length (an arc of a
-/// few pulses).
+/// Returns, of the integer centres near the true one, the centre whose arc ends exactly at `end` with the least
+/// deviation; if there is none, the one with the least deviation. Empty if no centre gives an arc of about that length
+/// (an arc of a few pulses).
 std::optional<ChipArc> fit_arc(const ArcRequest& wanted);
 
 }  // namespace motionrack::mcx314

@@ -1,4 +1,4 @@
-// Common initialisation of all axes of the chip.
+// Initialisation common to all axes of the chip.
 #pragma once
 
 #include <motionrack/cards/mcx314/driver/driver.hpp>
@@ -6,7 +6,7 @@
 
 namespace motionrack::mcx314 {
 
-/// WR2: both software limits enabled.
+/// Bits of WR2 that enable both software limits.
 inline constexpr unsigned software_limits = field("WR2", "SLMTP").mask | field("WR2", "SLMTM").mask;
 
 /// Initialises the whole chip: reset, pulse and direction, limit switches that act Low and decelerate, no pulses

@@ -1,4 +1,4 @@
-// Constraints of the chip and its host on a path, in addition to the machine's limits.
+// Limits that the chip and its host set for a path, in addition to the limits of the machine.
 #pragma once
 
 #include <motionrack/cards/mcx314/axes/geometry.hpp>

@@ -46,9 +46,9 @@ struct Segment {
     double seconds = 0;                       ///< pause only
 };
 
-/// Length of the segment: the time integral of V (V units x s) at range `range`, without a pause.
+/// Returns the length of the segment: the time integral of V (V units x s) at range `range`; 0 for a pause.
 double segment_length(const Segment& segment, std::int32_t range);
-/// Approximate duration of the segment: from the velocity `from` to its own V, then constant.
+/// Returns the approximate duration of the segment, s: from the velocity `from` (V units) to its own V, then constant.
 double segment_seconds(const Segment& segment, double from, std::int32_t range);
 
 }  // namespace motionrack::mcx314

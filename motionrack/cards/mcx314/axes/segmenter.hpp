@@ -38,22 +38,22 @@ class Segmenter {
     const Segment& operator[](std::size_t i) const { return ready_[i]; }
     void pop() { ready_.pop_front(); }
 
-    /// Known pulses that this channel's auxiliary still has in the present chain while it continues in one direction: 1
-    /// or -1.
+    /// Returns the known pulses that the auxiliary axis of this channel still has in the present chain in one
+    /// `direction` (1 or -1), up to its reversal.
     std::int64_t auxiliary_pulses_ahead(int channel, int direction) const;
 
-    /// Number of the next planned move, from 0.
+    /// Returns the number of the next planned move, from 0.
     std::int32_t next_move() const { return next_block_; }
     void count_from(std::int32_t block) { next_block_ = block; }
 
-    /// Notes since the last call, oldest first.
+    /// Returns the warnings since the last call, oldest first.
     std::vector<control::PathWarning> take_path_warnings() { return std::exchange(notes_, {}); }
 
-    /// R with which the fastest axis' maximum pulse rate, along a diagonal of two such axes, uses all 8,000 speed
-    /// units.
+    /// Returns the R with which a path diagonal to two of the fastest axes, both at their maximum pulse rate, uses all
+    /// 8,000 speed units.
     static std::int32_t best_range(const AxisMap& map);
 
-    /// Minimum duration of a segment, s: a shorter one may end before the host has written the next.
+    /// Returns the minimum duration of a segment, s: a shorter one may end before the host has written the next.
     static double min_seconds(const HostTimes& host);
     /// Returns the minimum duration, s, of a segment of which the host counts the whole pulses.
     static double min_counted_seconds(const HostTimes& host);
@@ -77,7 +77,7 @@ class Segmenter {
         std::int32_t max_at_end = rules::max_units;  ///< V limit at the start of the next segment
         bool turns_back = false;                     ///< the next segment reverses
     };
-    /// Division of a move: drives at `top` until `fall_from` along it, then at `exit`.
+    /// Division of a move: V is `top` until the position `fall_from` along it, then `exit`.
     struct MoveSpeeds {
         double fall_from = 0;
         std::int32_t top = 1;

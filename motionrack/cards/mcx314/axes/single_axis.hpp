@@ -51,7 +51,7 @@ class SingleAxis final : public control::Axis {
     control::HomingResult home_outcome() const override;
 
     int channel() const { return settings_.channel; }
-    /// Register settings of a homing request. Errors: as home().
+    /// Returns the register settings of a homing request. Errors: as home().
     Result<HomeSettings> home_settings(const control::HomingRequest& order) const;
 
   private:

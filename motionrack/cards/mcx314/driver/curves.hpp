@@ -66,8 +66,8 @@ struct CurvePlan {
     double jerk() const { return data.s_curve ? 62.5e6 / static_cast<double>(data.K) * hz(1) : 0; }
 };
 
-/// Ticks of constant speed between two changes. Pulses occur at the ticks at which the accumulator, `at` before the
-/// span, passes a multiple of R. Ticks count from the command.
+/// Ticks of constant speed between two changes of the speed. Pulses occur at the ticks at which the accumulator, `at`
+/// before the span, passes a multiple of R. Ticks count from the command.
 struct CurveSpan {
     std::int64_t tick = 0;  ///< last tick before the span
     std::int64_t ticks = 0;
@@ -80,21 +80,21 @@ struct CurveSpan {
 /// every span in order.
 Result<CurvePlan> plan_drive(const CurveData& data, const std::function<void(const CurveSpan&)>& spans = {});
 
-/// The latest manual deceleration point with which the drive still reaches SV at its last pulse, or 0. Exact by search:
-/// every later point ends faster.
+/// Returns the latest manual deceleration point with which the drive still reaches SV at its last pulse, or 0. Exact by
+/// search: every later point ends faster.
 Result<std::int64_t> best_dec_point(const CurveData& data);
 
-/// The smallest AO, 0 .. 65,535, with which the automatic deceleration reaches SV by the last pulse: a deceleration
-/// takes slightly more pulses than the acceleration, most of all in S-curves. 65,535 if none does.
+/// Returns the smallest AO, 0 .. 65,535, with which the automatic deceleration reaches SV by the last pulse: a
+/// deceleration takes slightly more pulses than the acceleration, most of all in S-curves. 65,535 if none does.
 Result<std::int64_t> best_offset(const CurveData& data);
 
-/// The drive completed so that it ends at SV: by the point of best_dec_point() if it decelerates with D, else by
-/// best_offset(). A continuous drive is unchanged.
+/// Returns the drive with the data that make it end at SV: the point of best_dec_point() if it decelerates with D, else
+/// the AO of best_offset(). Returns a continuous drive unchanged.
 Result<CurveData> with_slow_end(const CurveData& data);
 
-/// Pulses of the deceleration from `v` to SV, rounded up.
+/// Returns the pulses of the deceleration from `v` to SV, rounded up.
 std::int64_t fall_pulses(const CurveData& data, std::int64_t v);
-/// Speed, V units, after `pulses` of a T-curve's deceleration from `v`: SV if they suffice.
+/// Returns the speed, V units, after `pulses` of a T-curve's deceleration from `v`: SV if they suffice.
 std::int64_t speed_after_fall(const CurveData& data, std::int64_t v, std::int64_t pulses);
 
 }  // namespace motionrack::mcx314

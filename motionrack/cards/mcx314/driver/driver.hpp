@@ -23,23 +23,23 @@ class Driver {
     Driver(RegisterPort& port, Interrupt& interrupt) : port_(port), interrupt_(interrupt) {}
 
     // ---- initial
-    /// Software reset of the chip; waits its 875 ns.
+    /// Resets the chip by software, and waits the 875 ns that it takes.
     void RESET();
-    /// RESET, then writes 0 to every mode register, AO, LP and EP, independent of the chip's own defaults.
+    /// Executes RESET(), then writes 0 to every mode register, AO, LP and EP, so the chip's own defaults do not matter.
     void initialise();
-    /// Pulse output: `mode` 0 two pulse trains, 1 pulse and direction (WR2 PLSMD).
+    /// Selects the pulse output: `mode` 0 two pulse trains, 1 pulse and direction (WR2 PLSMD).
     Result<void> SetPulseMode(unsigned axes, int mode);
-    /// Levels of the pulse outputs: `negative` pulses; `direction_high`: direction output High in + direction.
+    /// Sets the levels of the pulse outputs. `negative`: Low pulses; `direction_high`: direction High in + direction.
     Result<void> SetPulseLevels(unsigned axes, bool negative, bool direction_high);
-    /// The multiple M, 1 .. 500: pulses/s = V * M. Writes R = 8,000,000 / M. Not while driving.
+    /// Sets the multiple M, 1 .. 500: pulses/s = V * M. Writes R = 8,000,000 / M. Not while driving.
     Result<void> SetMultiple(unsigned axes, std::int64_t multiple);
-    /// R, 16,000 .. 8,000,000: pulses/s = V * 8,000,000 / R. Not while driving.
+    /// Sets R, 16,000 .. 8,000,000: pulses/s = V * 8,000,000 / R. Not while driving.
     Result<void> SetRange(unsigned axes, std::int64_t range);
     Result<void> SetRange(std::int64_t range) { return SetRange(xyzu, range); }
     /// Writes the smallest whole multiple with which V <= 8,000 reaches `pulses_a_second`, 1 .. 4,000,000.
     Result<void> SetMaxSpeed(unsigned axes, std::int64_t pulses_a_second);
     Result<void> SetMaxSpeed(std::int64_t pulses_a_second) { return SetMaxSpeed(xyzu, pulses_a_second); }
-    /// R as it is, 16,000 .. 13,856,407: axes two and three of constant vector speed use more than 8,000,000.
+    /// Writes R, 16,000 .. 13,856,407: the second and third axis of a constant vector speed need more than 8,000,000.
     Result<void> WriteRange(unsigned axes, std::int64_t range);
 
     // ---- speeds and ramps
@@ -49,28 +49,28 @@ class Driver {
     Result<void> SetD(unsigned axes,
                       std::int64_t value);                  ///< deceleration, 1 .. 8,000; used if SetAsymmetric() is on
     Result<void> SetAA(unsigned axes, std::int64_t value);  ///< K, 1 .. 65,535: jerk 62.5e6 / K * M pulses/s3
-    /// Pulses reserved for the end at SV, 0 .. 65,535; absent (initially): the need of each drive, by with_slow_end().
+    /// Sets AO, the pulses reserved for the end at SV, 0 .. 65,535; absent (initially): each drive writes its need.
     Result<void> SetAO(unsigned axes, std::optional<std::int64_t> value);
-    /// Output pulses of a fixed drive, -268,435,455 .. 268,435,455; the sign is the direction that DriveFixed() takes.
+    /// Sets the pulses of a fixed drive, -268,435,455 .. 268,435,455; the sign is the direction for DriveFixed().
     Result<void> Pulse(unsigned axes, std::int64_t pulses);
     /// Selects automatic deceleration: the chip determines the deceleration point itself. Not for arcs.
     Result<void> AutoDec(unsigned axes = xyzu);
-    /// Fixed drives decelerate after `point` pulses, 0 .. 268,435,455.
+    /// Selects manual deceleration: fixed drives decelerate after `point` pulses, 0 .. 268,435,455.
     Result<void> ManualDec(unsigned axes, std::int64_t point);
     Result<void> ManDec(unsigned axes, std::int64_t point) { return ManualDec(axes, point); }
     /// Sets only the point, also while driving with manual deceleration.
     Result<void> SetDecPoint(unsigned axes, std::int64_t point);
-    /// Decelerations use D instead of A. Curves with automatic deceleration then get the point that plan_drive()
-    /// determines.
+    /// Selects whether decelerations use D instead of A. With automatic deceleration, TCurve_F and SCurve_F then write
+    /// the point of best_dec_point(); DriveFixed() does not.
     Result<void> SetAsymmetric(unsigned axes, bool on);
-    /// S-curve or T-curve for the next drives (WR3 SACC).
+    /// Selects an S-curve or a T-curve for the next drives (WR3 SACC).
     void SetSCurve(unsigned axes, bool on);
 
     // ---- drives
     // Refused while one of the axes drives, or before its multiple is set.
-    /// Fixed drive with T-curve; the sign of `pulses` is the direction.
+    /// Starts a fixed drive with a T-curve; the sign of `pulses` is the direction.
     Result<void> TCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t pulses);
-    /// Continuous drive with T-curve, until stopped. `negative`: in - direction (the source knows only +).
+    /// Starts a continuous drive with a T-curve, until stopped. `negative`: in - direction (the source knows only +).
     Result<void> TCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, bool negative = false);
     Result<void> SCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
                           std::int64_t pulses);
@@ -107,41 +107,41 @@ class Driver {
     Result<void> SetC(unsigned axes, std::int64_t centre) { return SetCP(axes, centre); }
     Result<void> SetFP(unsigned axes, std::int64_t finish);  ///< finish point of lines and arcs, relative to the start
     Result<void> SetP(unsigned axes, std::int64_t finish) { return SetFP(axes, finish); }
-    /// Lines: C constant speed, T trapezoid, S S-curve. Speeds are those of the longest axis. Lines, arcs, chains and
-    /// patterns are refused while any interpolation runs; they end a chain or a pattern left open.
+    /// Start lines: C constant speed, T trapezoid, S S-curve. Speeds are those of the longest axis. Lines, arcs, chains
+    /// and patterns are refused while any interpolation runs; they end a chain or a pattern left open.
     Result<void> Line2D_C(const LINEDATA& data, unsigned axes);
     Result<void> Line2D_T(const LINEDATA& data, unsigned axes);
     Result<void> Line2D_S(const LINEDATA& data, unsigned axes);
     Result<void> Line3D_C(const LINEDATA& data, unsigned axes);
     Result<void> Line3D_T(const LINEDATA& data, unsigned axes);
     Result<void> Line3D_S(const LINEDATA& data, unsigned axes);
-    /// Arcs. Refused if the finish point is off the circle by more than arc_tolerance(). The T-curve uses the point of
-    /// ManualDec() of the first axis if that is active, else a point computed from the arc's basic pulses.
+    /// Start arcs. Refused if the finish point is off the circle by more than the tolerance. T-curves decelerate at the
+    /// point of ManualDec() of the first axis if it is active, else at one computed from the basic pulses.
     Result<void> CircleCW_C(const CIRCLEDATA& data, unsigned axes);
     Result<void> CircleCCW_C(const CIRCLEDATA& data, unsigned axes);
     Result<void> CircleCW_T(const CIRCLEDATA& data, unsigned axes);
     Result<void> CircleCCW_T(const CIRCLEDATA& data, unsigned axes);
     /// Returns the end of an arc on the chip, and its basic pulses; writes nothing.
     Result<rules::ArcEnd> arc_end(const CIRCLEDATA& data, unsigned axes, bool clockwise) const;
-    /// Sets the tolerance: distance of a finish point from the circle over the radius, 0 .. 1 (0.01); >= 3 pulses.
+    /// Sets the permitted distance of a finish point from the circle over the radius, 0 .. 1 (0.01); 3 pulses at least.
     Result<void> set_arc_tolerance(double part);
     double arc_tolerance() const { return arc_tolerance_; }
     /// Keeps the path speed of later lines and arcs constant: two axes stepping together take 1.414 times as long,
     /// three 1.732 times. 1: off, 2: two axes, 3: three axes.
     Result<void> SetVectorSpeed(int axes_count);
-    /// Speed of every axis, pulses/s, signed, also in interpolations started by this library: the mean over some
-    /// pulses. Refused in a bit pattern, in an interpolation started by Line() or Arc(), and after LPS() has moved its
-    /// counters.
+    /// Returns the speed of every axis, pulses/s, signed, also in interpolations started by this library: the mean over
+    /// some pulses. Refused in a bit pattern, in an interpolation started by Line() or Arc(), and after LPS() has moved
+    /// its counters.
     Result<std::array<double, 4>> axis_speeds();
 
-    /// Direct register access: AX1, AX2 (, AX3) channels; constant vector speed of two axes; junction interrupt.
+    /// Writes WR5: the channels of AX1, AX2 and AX3, constant vector speed of two axes, and the junction interrupt.
     void SetInterpolationAxes(int first, int second, int third, bool constant_vector, bool interrupt_at_junctions);
-    /// A line of two or three axes: finish points -8,388,608 .. 8,388,607. Starts or queues it.
+    /// Starts or queues a line of two or three axes; finish points -8,388,608 .. 8,388,607.
     Result<void> Line(const Finish* ends, int count);
     Result<void> Arc(const Finish (&ends)[2], bool clockwise);
     void EnableDeceleration(bool on);
     void ClearInterpolationInterrupt();
-    /// Interrupt at each junction of continuous interpolation, and when the pattern stack needs data.
+    /// Enables interrupts at each junction of continuous interpolation, and when the pattern stack needs data.
     void EnableInterpolationInterrupts(bool junctions, bool patterns);
 
     // ---- continuous interpolation (chain.cpp)
@@ -191,17 +191,17 @@ class Driver {
     Result<void> Synchronous(unsigned axes);
     /// MCX314As: returns the counter that the axis' synchronous action has saved in BR.
     std::int32_t ReadBR(int axis);
-    /// nOUT0 .. nOUT7 (4..7 unless they show the status). After an emergency stop one must be set low, then high.
+    /// Sets nOUT0 .. nOUT7 (4..7 while they do not show the status). After an emergency stop write low before high.
     Result<void> SetOutput(unsigned axes, int output, bool high);
     Result<void> ShowDriveStatus(unsigned axes, bool on);  ///< nOUT4..7 show CMP+, CMP-, accelerating, decelerating
     InputLevels inputs(int axis);
 
-    /// Interrupts (cause::..): enables, disables, and reads and clears the interrupts since the last call.
+    /// Enables interrupts (cause::..), disables them, and reads and clears those since the last call.
     Result<void> EnableInterrupt(unsigned axes, std::uint16_t causes);
     Result<void> DisableInterrupt(unsigned axes, std::uint16_t causes = cause::all);
     std::uint16_t read_interrupts(int axis);
 
-    /// WR1, WR2, WR3 as words; the driver stores the written word per axis.
+    /// Write WR1, WR2, WR3 as whole words; the driver stores the written word of each axis.
     void WriteMode1(unsigned axes, std::uint16_t word);
     void WriteMode2(unsigned axes, std::uint16_t word);
     void WriteMode3(unsigned axes, std::uint16_t word);
@@ -216,14 +216,14 @@ class Driver {
     Result<void> SetCompM(unsigned axes, std::int64_t value);  ///< COMP-
     std::int32_t ReadLPS(int axis);
     std::int32_t ReadEPS(int axis);
-    std::int32_t ReadCV(int axis);  ///< present speed, V units; 0 at standstill; in paths only of AX1
+    std::int32_t ReadCV(int axis);  ///< present speed, V units; 0 at standstill; in interpolations only of AX1
     std::int32_t ReadCA(int axis);  ///< present acceleration, A units; at constant speed the last value
     MainStatus status();
     DriveStatus axis_status(int axis);
     bool moving(unsigned axes) { return status().driving(axes); }
-    /// Complete report of an axis for messages.
+    /// Returns a complete report of an axis for messages.
     AxisReport report(int axis);
-    /// Reports of the axes with an error or stopped by an input; "" if none.
+    /// Returns the reports of the axes with an error or stopped by an input; "" if there are none.
     std::string error_text(unsigned axes = xyzu);
 
     /// Refuses an invalid channel; `who`: function in the message.
@@ -251,7 +251,7 @@ class Driver {
         Curve kind = Curve::constant;
         std::int64_t SV = 0, V = 0, A = 0, D = 0, K = 0;
     };
-    /// Last written values of one axis.
+    /// Values of one axis as written last.
     struct Kept {
         std::array<std::optional<std::int64_t>, 16> data = {};  ///< by command code
         std::array<std::uint16_t, 3> mode = {};
@@ -259,11 +259,11 @@ class Driver {
         std::int64_t dec_point = 0;
         bool manual = false;
         bool asymmetric = false;
-        bool own_offset = false;  ///< SetAO
+        bool own_offset = false;  ///< AO was set by SetAO()
         bool negative = false;    ///< direction of Pulse(), or of the last drive
         bool from_known = false;
         std::int32_t from = 0;                                 ///< LP at the start of the present fixed drive
-        std::optional<std::int64_t> finish = {}, centre = {};  ///< SetFP, SetCP
+        std::optional<std::int64_t> finish = {}, centre = {};  ///< as set by SetFP() and SetCP()
         std::uint16_t interrupts = 0;                          ///< read during a wait, not yet returned
     };
     /// A segment of an interpolation. `from`: LP of its axes at its start.
@@ -332,7 +332,7 @@ class Driver {
     Result<void> check_chain_speed(int axis, std::int64_t v) const;
     std::string not_changeable(int axis, MainStatus main);
 
-    // A check and its purpose.
+    // A check, then the write.
     Result<void> write(unsigned axes, const Parameter& parameter, std::int64_t value);
     Result<void> write_switch(const char* who, unsigned axes, int number, Field bits, int n, int max_n,
                               const char* meanings);

@@ -14,10 +14,11 @@
 
 namespace motionrack::mcx314 {
 
-/// Speeds are in V units (8,000,000 / range pulses/s), distances in pulses.
+/// Settings of a homing: speeds in V units (8,000,000 / range pulses/s), distances in pulses.
 struct HomeSettings {
-    /// 1 decelerating stop at the switch; 2 again, slowly; 3 as 1, on to the index; 4 as 2, on to the index; 5 as 1, on
-    /// to the index, then back and slowly to the switch again: the source's HomeType4.
+    /// Homing method. 1: decelerating stop at the switch. 2: as 1, then back off and approach the switch again slowly.
+    /// 3: as 1, then slowly on to the index. 4: as 2, then slowly on to the index. 5: as 3, then back off and approach
+    /// the switch again slowly; this is the source's HomeType4.
     int type = 2;
     bool negative = true;                     ///< direction of the search for the switch
     int input = 0;                            ///< the home switch: IN0 .. IN3
@@ -37,7 +38,7 @@ struct HomeSettings {
     std::int64_t hysteresis = -1;  ///< switch hysteresis, pulses; -1: unknown, edges are not compared
     std::int64_t repeats = 2;      ///< repeatability of its edges, pulses
     std::int64_t backoff = 50;     ///< distance driven after the switch is released, 0 .. travel
-    Duration settle = milliseconds(5);      ///< time without a change after which contacts have settled, 0 .. 10 s
+    Duration settle = milliseconds(5);      ///< settling time of contacts without a change, 0 .. 10 s
     Duration timeout = whole_seconds(600);  ///< limit for one state, > 0; less if distance and speed imply less
     bool turn_at_limit = true;              ///< at the limit switch, reverse the search
     std::int64_t home_position = 0;         ///< LP at home, 32 bit
@@ -48,9 +49,9 @@ struct HomeSettings {
     double pulses_per_unit = 1;  ///< not 0
 };
 
-/// Settings from the arguments of the source's HomeType functions: WR1Reg is WR1 with the home input and its level. In
-/// types 3 and 4 the index is at IN2, at its level; if IN2 is the only enabled input, the home switch is at IN2 and the
-/// index at IN3. Errors: refused, no input enabled.
+/// Makes settings from the arguments of the source's HomeType1 to 4. WR1Reg is WR1 with the home input and its level.
+/// With `type` 3 and 4 the index is at IN2, at its level; if IN2 is the only enabled input, the home switch is at IN2
+/// and the index at IN3. Errors: refused if no input is enabled.
 Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A);
 
 class Home {
@@ -63,12 +64,12 @@ class Home {
     Result<void> start(const HomeSettings& settings, Instant now);
     /// Executes one poll; never waits. `now` must not decrease.
     void step(Instant now);
-    /// Decelerates and aborts. Valid in every state; no effect after the end.
+    /// Decelerates and aborts the homing. Valid in every state; no effect after the end.
     void stop();
 
     bool running() const { return running_; }
     bool homed() const { return report_.homed; }
-    /// Name of the present state; "" before the first start.
+    /// Returns the name of the present state; "" before the first start.
     std::string_view state() const { return table_ == nullptr ? std::string_view{} : state_->name; }
     const HomeReport& report() const { return report_; }
     const HomeSettings& settings() const { return settings_; }
@@ -128,18 +129,18 @@ class Home {
     bool running_ = false;
     bool stop_asked_ = false;
     bool switch_on_ = false;                 ///< as last seen, or as the chip's stop shows
-    bool edge_in_state_ = false;             ///< the edge that the state waits for was seen; further changes are bounce
+    bool edge_in_state_ = false;             ///< the edge that the state waits for was seen; later changes are bounce
     std::optional<ChipHomingEdge> braking_;  ///< first poll that showed a deceleration of the search
     bool at_speed_ = false;                  ///< V was reached in this drive
-    bool turned_ = false;                    ///< at a limit
-    bool again_ = false;                     ///< repetition with a run-up
+    bool turned_ = false;                    ///< the search has reversed at a limit
+    bool again_ = false;                     ///< the search is repeated with a run-up
     Instant steady_since_{};
     Instant deadline_ = never;
     std::int32_t last_lp_ = 0;
     std::int32_t last_cv_ = 0;
     std::int64_t planned_ = 0;       ///< pulses of the present drive
-    std::string_view failed_in_;     ///< state
-    std::int64_t failed_after_ = 0;  ///< pulses of its drive
+    std::string_view failed_in_;     ///< state in which the homing failed
+    std::int64_t failed_after_ = 0;  ///< pulses of the drive in that state
     std::uint16_t mode_before_[3] = {};
 };
 

@@ -17,7 +17,7 @@ enum class HomeFault : std::uint8_t {
     not_found,        ///< the switch was not found within the travel, or before the limit
     near_limit,       ///< the switch was found, but the limit switch acted before standstill
     not_released,     ///< the switch remains active
-    edges_differ,     ///< the switch acted at another position than a sound one would, by its earlier edges
+    edges_differ,     ///< the switch acted beyond the hysteresis and repeatability of its earlier edges
     no_index,         ///< the encoder's index was not found
     index_at_switch,  ///< the index is active at the switch edge: the next homing may find another revolution
     wrong_index,      ///< an index was found at a wrong position: there are two, or the switch was moved
@@ -57,7 +57,7 @@ struct HomeReport {
     int input = 0;
     HomeFault fault = HomeFault::none;
     bool homed = false;    ///< the position is valid
-    std::string sentence;  ///< result
+    std::string sentence;  ///< result as a sentence
     std::vector<ChipHomingEdge> edges;
     std::vector<ChipHomingStateVisit> stays;
     std::vector<std::string> notes;
@@ -72,11 +72,12 @@ struct HomeReport {
     Instant from{};
     Duration took{};
 
-    /// A position of this report relative to home, as LP counts afterwards; valid only if homed.
+    /// Returns a position of this report relative to home, as LP counts afterwards; valid only if homed.
     std::int64_t relative(std::int32_t lp) const;
     /// Returns the pulses from the switch's edge to the index.
     std::optional<std::int64_t> switch_to_index() const;
-    /// Result for a caller: ErrorKind::stopped or ErrorKind::machine with the sentence, success if homed.
+    /// Returns the result for a caller: success if homed, else ErrorKind::stopped or ErrorKind::machine with the
+    /// sentence.
     Result<void> result() const;
 };
 

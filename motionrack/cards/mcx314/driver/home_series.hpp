@@ -32,7 +32,7 @@ struct HomeSpread {
 Result<HomeSpread> repeat_home(Driver& driver, int axis, const HomeSettings& settings, int repeats,
                                std::span<const std::int64_t> away, Duration timeout = whole_seconds(600));
 
-/// The source's homing functions: all axes of the mask at once, in - direction, with R as written before. WR1Reg: WR1
+/// Home all axes of the mask at once, by the source's functions: in - direction, with R as written before. WR1Reg: WR1
 /// with the home input enabled at its level, and for types 3 and 4 IN2's level for the index. The return is at SV, the
 /// slow approach at half of SV, the index search of type 3 at SV. Errors: refused; those of the first axis that fails.
 Result<std::vector<HomeReport>> HomeType1(Driver& driver, unsigned axes, unsigned WR1Reg, std::int64_t SV,

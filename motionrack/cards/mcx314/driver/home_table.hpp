@@ -16,11 +16,11 @@ namespace motionrack::mcx314 {
 enum class HomingAction : std::uint8_t {
     poll,         ///< reads the position of the axis
     drive,        ///< writes stop input, speed and pulses, and starts
-    wait_end,     ///< until the drive has ended (RR0), then reads the cause (RR1)
-    settle,       ///< records the time
-    wait_steady,  ///< until the home input has not changed for the settling time (RR4, RR5)
+    wait_end,     ///< waits until the drive has ended (RR0), then reads the cause (RR1)
+    settle,       ///< records the time at which settling begins
+    wait_steady,  ///< waits until the home input has not changed for the settling time (RR4, RR5)
     zero,         ///< writes LP and EP
-    wait_stop,    ///< until standstill after a failure
+    wait_stop,    ///< waits until standstill after a failure
     end
 };
 enum class SearchDirection : std::uint8_t { towards, away };  ///< relative to the switch
@@ -62,7 +62,7 @@ struct HomeTable {
     }
 };
 
-/// The table of a type, 1..5.
+/// Returns the table of a method, 1 .. 5.
 const HomeTable& home_table(int type);
 
 }  // namespace motionrack::mcx314

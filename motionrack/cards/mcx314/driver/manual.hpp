@@ -13,30 +13,30 @@
 
 namespace motionrack::mcx314 {
 
-/// Range of a jog: values of LP.
+/// Range of a jog, as values of LP.
 struct ManualTravel {
     std::int64_t min = 0, max = 0;
 };
 
-/// Speeds in V units, acceleration in A units, at the present R.
+/// Settings of manual operation: speeds in V units, acceleration in A units, at the present R.
 struct ManualSettings {
     std::int64_t sv = 50;                     ///< initial speed, 1 .. 8,000
     std::int64_t a = 100;                     ///< acceleration and deceleration, 1 .. 8,000
     std::int64_t max_v = 8'000;               ///< maximum speed of jog(), 1 .. 8,000
-    Duration hold = milliseconds(250);        ///< duration of a jog or a manual home without renewal, 1 ms .. 10 s
+    Duration hold = milliseconds(250);        ///< duration of a jog or a manual homing without renewal, 1 ms .. 10 s
     std::optional<ManualTravel> travel = {};  ///< absent: a jog is unlimited
 };
 
 enum class ManualState : std::uint8_t { standing, jogging, turning, stepping, homing, stopping };
 
-/// The same as a declared state machine, in the order of ManualState.
+/// Returns the states and transitions of manual operation as a declared state machine, in the order of ManualState.
 const MachineInfo& manual_machine();
 
 class Manual {
   public:
     Manual(Driver& driver, int axis) : driver_(driver), axis_(axis), home_(driver, axis) {}
 
-    /// Errors: refused if a value is out of range or the axis is moving; nothing is changed.
+    /// Changes the settings. Errors: refused if a value is out of range or the axis is moving; nothing is changed.
     Result<void> set(const ManualSettings& settings);
     const ManualSettings& settings() const { return settings_; }
 
@@ -50,13 +50,14 @@ class Manual {
     Result<void> home(const HomeSettings& settings, Instant now);
     /// Executes one poll: ends a motion without renewal, starts the motion after a reversal, advances the homing.
     void step(Instant now);
-    /// Decelerates, or stops at once. Valid in every state.
+    /// Stop: decelerating, or at once. Valid in every state.
     void stop();
     void stop_now();
 
     ManualState state() const { return state_; }
     std::string_view state_name() const { return manual_machine().states[static_cast<std::size_t>(state_)].name; }
-    /// Abnormal reason of the last motion's end ("the + limit switch was reached"); otherwise empty.
+    /// Returns the reason why the last motion ended, if it is abnormal ("the + limit switch was reached"); otherwise
+    /// "".
     const std::string& why_ended() const { return why_; }
     const Home& homing() const { return home_; }
 
@@ -74,7 +75,7 @@ class Manual {
     ManualSettings settings_;
     Home home_;
     ManualState state_ = ManualState::standing;
-    std::int64_t wanted_ = 0;  ///< speed of the jog, or of the one after a reversal
+    std::int64_t wanted_ = 0;  ///< speed of the jog, or of the jog after a reversal
     Instant until_{};          ///< end of the renewal
     Instant rests_until_{};    ///< end of the pause of a reversal
     RampReserve reserve_;      ///< for a jog within a travel

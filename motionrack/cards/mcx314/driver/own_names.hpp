@@ -11,7 +11,7 @@ namespace motionrack::mcx314 {
 struct OwnName {
     std::string_view driver, library;
 };
-/// Of two names with the same beginning, the longer one comes first.
+/// Names of functions. Of two names with the same beginning, the longer one comes first, so that it is replaced first.
 inline constexpr std::array own_names = {
     OwnName{"ContStart", "contour_begin"},    OwnName{"ContLine", "contour_line"},
     OwnName{"ContArc", "contour_arc"},        OwnName{"ContEnd", "contour_end"},

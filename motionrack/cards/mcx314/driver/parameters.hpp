@@ -1,4 +1,4 @@
-// Parameters of data commands, with the range that the function library accepts and the name in its messages.
+// The parameters of data commands: the range that the function library accepts, and the name in messages.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Pulses reserved for the end (AO) of a fixed drive whose speed is changed on the fly; T-curves.
+// Computes the pulses to reserve for the end (AO) of a fixed drive whose speed is changed on the fly; T-curves only.
 //
 //   The chip counts the pulses of its accelerating ramps, less those of the decelerating ones, and begins the final
 //   deceleration when only this number is left. A ramp holds each speed for one step before leaving it: an
@@ -12,11 +12,11 @@
 
 namespace motionrack::mcx314 {
 
-/// Speeds are V units, >= 0.
+/// Reserve of one drive. Speeds are in V units, >= 0.
 class RampReserve {
   public:
     RampReserve() = default;
-    /// Reserve of a drive that begins now. `pulses_per_v`: pulses of a ramp step per unit of its speed.
+    /// Begins the reserve of a drive that starts now. `pulses_per_v`: pulses of a ramp step per unit of its speed.
     RampReserve(std::int64_t sv, double pulses_per_v, std::int64_t v)
         : sv_(sv), pulses_per_v_(pulses_per_v), from_(std::min(sv, v)), wanted_(v) {}
 
@@ -27,7 +27,7 @@ class RampReserve {
         from_ = cv;
         wanted_ = v;
     }
-    /// Pulses of the final deceleration beyond those that the chip has counted; an upper bound.
+    /// Returns an upper bound of the pulses that the final deceleration takes beyond those that the chip has counted.
     std::int64_t pulses() const {
         const double last = taken(from_ - wanted_) + taken(std::max(from_, wanted_) - sv_);
         return static_cast<std::int64_t>(std::ceil(lost_ + last)) + rounding;

@@ -21,13 +21,13 @@ class RealAxis {
     Result<RealSetting> set(const RealDrive& drive);
     const RealSetting& setting() const { return setting_; }
 
-    /// Plan of a move. Errors: not set.
+    /// Returns the plan of a move. Errors: refused if set() has not succeeded before.
     Result<RealPlan> plan(double distance) const;
     /// Starts a move by a distance, or to a position. S-curve if a jerk is set; the point of an asymmetric deceleration
     /// is computed. Returns the rounded distance.
     Result<Rounded> move(double distance);
     Result<Rounded> move_to(double position);
-    /// Drives until stopped.
+    /// Starts a continuous drive, until stopped.
     Result<void> run(bool negative);
     /// Changes the speed of the present drive, at most to the reach of R; see Driver::change_speed.
     Result<Rounded> change_speed(double speed);
@@ -35,14 +35,14 @@ class RealAxis {
     Result<Rounded> change_distance(double distance);
 
     double position() { return static_cast<double>(driver_.ReadLPS(axis_)) / scale_.pulses_per_unit; }
-    /// Position by the encoder; 0 without one.
+    /// Returns the position by the encoder; 0 without one.
     double encoder_position() {
         return encoder_.pulses_per_unit > 0 ? static_cast<double>(driver_.ReadEPS(axis_)) / encoder_.pulses_per_unit
                                             : 0;
     }
     /// Sets the counter LP to `position`, to the nearest pulse.
     Result<Rounded> set_position(double position);
-    /// Velocity, units/s, signed; also in an interpolation.
+    /// Returns the velocity, units/s, signed; also in an interpolation.
     Result<double> speed();
 
   private:

@@ -28,7 +28,7 @@ struct DriveStatus {
     bool accelerating() const { return field("RR1", "ASND").test(rr1); }
     bool constant() const { return field("RR1", "CNST").test(rr1); }
     bool decelerating() const { return field("RR1", "DSND").test(rr1); }
-    /// True in a ramp of an S-curve.
+    /// Returns true in a ramp of an S-curve.
     bool in_s_ramp() const {
         return field("RR1", "AASND").test(rr1) || field("RR1", "ACNST").test(rr1) || field("RR1", "ADSND").test(rr1);
     }
@@ -41,9 +41,10 @@ struct DriveStatus {
     bool emergency() const { return field("RR2", "EMG").test(rr2) || field("RR1", "EMG").test(rr1); }
     /// Returns true if stopped by input n, 0..3.
     bool stopped_by_input(int n) const { return (field("RR1", "IN0").mask << n & rr1) != 0; }
-    /// Reason for the end of the last drive, as a phrase ("the + limit switch was reached"); empty for a normal end.
+    /// Returns the reason for the end of the last drive as a phrase ("the + limit switch was reached"); "" for a normal
+    /// end.
     std::string why_stopped() const;
-    /// Remedy, as a sentence; empty if none is needed.
+    /// Returns the remedy as a sentence; "" if none is needed.
     std::string what_next() const;
 };
 
@@ -55,7 +56,8 @@ struct AxisReport {
     std::int32_t ep = 0;
     std::int32_t cv = 0;
     DriveStatus status = {};
-    /// "X stands at LP 1200, EP 1200: the + limit switch was reached (RR1 1000h, RR2 0004h). Move it off ..."
+    /// Returns the report: "X stands at LP 1200, EP 1200: the + limit switch was reached (RR1 1000h, RR2 0004h). Move
+    /// it off ..."
     std::string text() const;
 };
 
@@ -68,9 +70,9 @@ struct StatusBit {
     std::string_view next;  ///< remedy; "": none
 };
 
-/// Every field of RR0, RR1, RR2, RR3.
+/// Returns every field of RR0, RR1, RR2, RR3.
 std::span<const StatusBit> status_bits();
-/// The nonzero fields in a word of `reg`, one per line: "LMTP: stopped by nLMTP. Move ..".
+/// Explains the nonzero fields in a word of `reg`, one per line: "LMTP: stopped by nLMTP. Move ..".
 std::string explain(std::string_view reg, std::uint16_t word);
 
 /// Levels of an axis' inputs (RR4, RR5), 1 High.

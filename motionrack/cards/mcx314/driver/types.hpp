@@ -22,7 +22,7 @@ struct Finish {
     std::int32_t centre = 0;  ///< arcs only
 };
 
-/// The channels of a mask, X before Y before Z before U: for (const int i : channels_of(axes)).
+/// The channels of an axis mask, X before Y before Z before U, for a loop: for (const int i : channels_of(axes)).
 struct ChannelList {
     std::array<int, 4> channel = {};
     int count = 0;
@@ -36,7 +36,7 @@ constexpr ChannelList channels_of(unsigned axes) {
     return out;
 }
 
-/// Pulses or counts between two readings of a 32-bit counter; counters wrap.
+/// Returns the pulses or counts between two readings of a 32-bit counter, which may have wrapped.
 constexpr std::int64_t pulse_delta(std::int32_t from, std::int32_t to) {
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
 }
@@ -99,10 +99,10 @@ enum class StopKind : std::uint8_t {
     quick  ///< at once
 };
 
-/// The stop input of an axis.
+/// Use of a stop input: not used, or stops the axis at this level.
 enum class StopInput : std::uint8_t { off, at_low, at_high };
 
-/// nEXPP, nEXPM.
+/// Drive that the inputs nEXPP and nEXPM start.
 enum class ExternalDrive : std::uint8_t { off, continuous, fixed };
 
 /// Source of the steps of an interpolation.

@@ -41,22 +41,22 @@ struct RealSetting {
     Rounded speed, start_speed, acceleration, deceleration, jerk;
     bool s_curve = false;
     bool asymmetric = false;  ///< D is not A
-    /// Largest magnitude of the relative errors.
+    /// Returns the largest magnitude of the relative errors.
     double max_error() const;
-    /// One line per value: "speed 33.3 -> V 6660: 33.3004 (+0.001 %)".
+    /// Returns one line per value: "speed 33.3 -> V 6660: 33.3004 (+0.001 %)".
     std::string text() const;
-    /// The curve in register units, without pulses.
+    /// Returns the curve in register units, without pulses.
     CurveData curve() const;
 };
 
-/// Selects R. Errors: ErrorKind::refused with the maximum possible value in the same unit; also for values that are not
-/// numbers or not above 0.
+/// Selects R and computes the setting. Errors: ErrorKind::refused with the maximum possible value in the same unit;
+/// also for values that are not numbers or not above 0.
 Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive);
 /// Computes the setting for a given R, 16,000 .. 8,000,000. Errors: as real_setting().
 Result<RealSetting> real_setting_at(const Scale& scale, const RealDrive& drive, std::int64_t range);
 /// Converts a curve in register units to mm (degrees) and s.
 RealDrive real_values(const Scale& scale, const CurveData& curve);
-/// Rounds a distance to the nearest whole pulse. Errors: not a number, or beyond 2,147,483,647 pulses.
+/// Rounds a distance to the nearest whole pulse. Errors: refused if it is not a number, or beyond 2,147,483,647 pulses.
 Result<Rounded> to_pulses(const Scale& scale, double distance);
 
 /// A plan in real units.
