@@ -1,4 +1,4 @@
-// Messages of a client.
+// Handles the messages of a WebSocket client and queues answers, events and snapshots for it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,13 +14,13 @@ using nlohmann::json;
 namespace {
 
 constexpr double min_rate = 1, max_rate = 100, first_rate = 10;
-constexpr int policy = 1008, try_again = 1013;  // RFC 6455, 7.4
+constexpr int policy = 1008, try_again = 1013;  // WebSocket close codes (RFC 6455, 7.4)
 
 std::chrono::nanoseconds period_of(double rate_hz) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate_hz));
 }
 
-/// The other members of a message are the fields of a command or query.
+/// Returns a message without these members; the others are the fields of the command or query.
 json without(json object, std::initializer_list<const char*> names) {
     for (const char* name : names) object.erase(name);
     return object;
@@ -71,7 +71,7 @@ void Client::message(std::string_view text, bool is_text) {
     if (!is_text)
         return refuse(nullptr, 400, "invalid_input", "Messages must be text; this one was binary. Nothing was done.");
     const bool counted = messages_.take("", service_.now().steady);
-    // A short message that may be STOP is read beyond the limit, too.
+    // A message of up to 200 bytes that may be STOP is parsed above the rate limit, too.
     if (!counted && (text.size() > 200 || text.find("\"stop\"") == std::string_view::npos))
         return refuse(nullptr, 429, "limit",
                       fmt::format("More than {:g} messages a second were received. This one was not read; send fewer.",
@@ -85,7 +85,7 @@ void Client::message(std::string_view text, bool is_text) {
         return refuse(nullptr, 400, "invalid_input",
                       "The id of a message is a whole number or a text of at most 64 bytes. Nothing was done.");
     const auto says = [&](const char* what) { return object->contains(what) && (*object)[what].is_string(); };
-    // The key was "order" once; a stop is done under that name too, for it is never refused.
+    // The former key is "order"; STOP is executed under it, too, because STOP is never refused.
     const bool former = says("order") && !says("command");
     if (former && (*object)["order"] != "stop")
         return refuse(request.id, 400, "invalid_input", "'order' is now 'command'. Nothing was done.");

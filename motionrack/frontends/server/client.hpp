@@ -21,7 +21,7 @@ namespace motionrack::server {
 struct OutgoingMessage {
     std::string own;
     std::shared_ptr<const std::string> shared;
-    bool picture = false;
+    bool picture = false;  ///< a snapshot
 };
 
 /// Connection below a client.
@@ -46,11 +46,11 @@ class Client : public std::enable_shared_from_this<Client> {
     void opened();
     void message(std::string_view text, bool is_text);
     void written();
-    /// The connection is closed.
+    /// Ends the session; call it after the connection has closed.
     void closed();
 
     // ---- from Clients
-    /// Returns true if a snapshot is due and must be sent; counts it as sent or lost.
+    /// Returns true if a snapshot is due and the queue has room for it. Counts each skipped snapshot as lost.
     bool due(Time now);
     const std::shared_ptr<panel::ChannelSet>& channels() const { return channels_; }
     void send_picture(std::shared_ptr<const std::string> rest);
@@ -67,7 +67,7 @@ class Client : public std::enable_shared_from_this<Client> {
     auth::Role role() const;
     panel::Caller caller() const { return {user_, role(), session_}; }
     void token(const Request& request);
-    /// A role that may operate may send whole programs.
+    /// Sets the maximum message size for a role; operators may send whole programs.
     void allow_for(auth::Role role);
     void subscribe(const Request& request);
     void ask(const Request& request, const std::string& name, bool query);

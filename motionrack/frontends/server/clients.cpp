@@ -1,4 +1,4 @@
-// Snapshots and events for many clients.
+// Sends snapshots and events to all WebSocket clients.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::shared_ptr<const std::string> Clients::encode(const std::shared_ptr<panel::
 void Clients::tick() {
     const auto now = service_.now().steady;
     const std::shared_ptr<const panel::StatusSnapshot> picture = service_.panel().picture();
-    const std::vector<std::shared_ptr<Client>> clients = clients_;  // a closed client leaves the list
+    const std::vector<std::shared_ptr<Client>> clients = clients_;  // copied, because a closed client leaves the list
     for (const std::shared_ptr<Client>& client : clients) {
         client->check_session(now);
         if (!client->due(now)) continue;

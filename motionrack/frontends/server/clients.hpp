@@ -15,7 +15,7 @@ class Clients {
     explicit Clients(PanelService& service) : service_(service) {}
     void add(std::shared_ptr<Client> client);
     void remove(const Client* client);
-    /// The server calls it every few ms.
+    /// Checks the tokens of all clients and sends due snapshots. The server calls it every 5 ms.
     void tick();
     void notify(const panel::Event& event);
     /// Number of clients; any thread.

@@ -43,7 +43,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
         pool_->open_connections.leave(this);
         if (std::exchange(ended_, true)) return;
         auto& socket = stream_.tcp();
-        if (!stream_.secure() && !busy_) {  // it waits for a request, so a last answer can be sent
+        if (!stream_.secure() && !busy_) {  // no answer is pending, so a final 503 can be sent
             const std::string& text = last_word(why);
             error_code error;
             socket.socket().non_blocking(true, error);
@@ -65,7 +65,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
 
     void read_head(std::chrono::milliseconds time) {
         parser_.emplace();
-        parser_->body_limit(boost::none);  // determined by the head
+        parser_->body_limit(boost::none);  // set after admission of the head
         expire(time);
         http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
             if (!self->ended_) self->took_head(error);
@@ -147,7 +147,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
 
     void answer(HttpAnswer one, bool keep_alive) {
         busy_ = true;
-        // For this request, also if its head cannot be read further.
+        // The method is known even if a later part of the header is malformed.
         const bool head_only = parser_->get().method() == http::verb::head;
         response_ = response_of(one, head_only, keep_alive && !peer_.stop_only);
         body_ = std::move(one.body);
@@ -189,9 +189,9 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
     std::shared_ptr<const std::string> body_;
     std::array<char, 4096> rest_;
     std::size_t drained_ = 0;
-    bool busy_ = false;  ///< sending an answer
+    bool busy_ = false;  ///< processing a request or sending its answer
     bool ended_ = false;
-    std::shared_ptr<Connection> keep_;  ///< itself, while only the panel works for it
+    std::shared_ptr<Connection> keep_;  ///< keeps the connection alive while the panel processes its request
 };
 
 }  // namespace

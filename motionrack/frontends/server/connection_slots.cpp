@@ -1,4 +1,4 @@
-// Assignment of slots.
+// Assigns slots to connections and closes callers above the limit.
 #include <algorithm>
 #include <iterator>
 #include <motionrack/frontends/server/connection_slots.hpp>
@@ -63,7 +63,7 @@ bool ConnectionSlots::end_a_caller() {
 }
 
 void ConnectionSlots::end_all(std::string_view why) {
-    std::vector<OpenConnection*> all;  // each removes itself when it ends
+    std::vector<OpenConnection*> all;  // copied, because each connection removes itself when it ends
     for (const auto& [open, network] : slots_) all.push_back(open);
     for (const WaitingCaller& caller : callers_) all.push_back(caller.open);
     for (OpenConnection* open : all) open->end(why);

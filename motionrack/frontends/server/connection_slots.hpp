@@ -3,7 +3,7 @@
 //  accept ─► caller ─whole head─► slot: 500, per network 250 ─► HTTP ─► possibly a WebSocket
 //            128       │     └──► no slot: STOP is executed, all else is answered 503
 //             │        └ STOP is executed in any case
-//             └─► one more: among the older quarter, closes the oldest caller of the network with the most callers;
+//             └─► above 128: among the older quarter, closes the oldest caller of the network with the most callers;
 //                 the input of newer ones may not have been read yet
 #pragma once
 
@@ -39,7 +39,7 @@ class ConnectionSlots {
     void leave(OpenConnection* open);
 
     /// Among the older quarter of the callers, closes the oldest of the network with the most callers. Returns false if
-    /// none qualifies.
+    /// no connection is a caller.
     bool end_a_caller();
     void end_all(std::string_view why);
     bool empty() const { return slots_.empty() && callers_.empty(); }

@@ -28,7 +28,7 @@ class GrblConnection : public std::enable_shared_from_this<GrblConnection<Stream
 
     bool awaits_greeting = false;  ///< discards output before the banner
 
-    std::function<void(std::string)> on_bytes;  ///< read_on() continues reading
+    std::function<void(std::string)> on_bytes;  ///< receives the bytes of one read; call read_on() for the next
     std::function<void()> on_end;
 
     void read_on() {
@@ -38,7 +38,7 @@ class GrblConnection : public std::enable_shared_from_this<GrblConnection<Stream
                                     if (self->on_bytes) self->on_bytes(std::string(self->in_.data(), got));
                                 });
     }
-    /// Returns false if the buffer is full.
+    /// Queues output, or discards it before the banner. Returns false, without queueing, if the buffer is full.
     bool write(const PortMessage& said) {
         if (said.greets) awaits_greeting = false;
         if (awaits_greeting) return true;

@@ -47,7 +47,7 @@ struct Visitor {
             else if (static_cast<unsigned char>(c) < 0x80 && !is_realtime(c))
                 within_line = true;
     }
-    /// Takes the rest of a line, of which a part was ignored, off the bytes. Its real-time bytes stay.
+    /// Removes the rest of a partly ignored line from the bytes; keeps its real-time bytes.
     void drop_rest_of_line(std::string& bytes) {
         std::string kept;
         std::size_t at = 0;
@@ -61,13 +61,13 @@ struct Visitor {
 
   private:
     static bool is_realtime(char c) { return grbl::realtime_of(static_cast<std::uint8_t>(c)).has_value(); }
-    /// A reset discards the line that it comes in.
+    /// A reset (0x18) ends the line in which it is received.
     static bool ends_line(char c) { return c == '\n' || c == '\r' || c == '\x18'; }
 };
 
 }  // namespace
 
-/// Runs on the network thread except for construction.
+/// Runs on the network thread, except construction, port() and sender().
 class GrblPorts::Inside {
   public:
     Inside(const GrblPortSettings& settings, operate::Machine& machine, auth::ControlLease& lease)
@@ -92,7 +92,7 @@ class GrblPorts::Inside {
     }
 
   private:
-    /// The motion thread produces the output and may outlive the network.
+    /// Makes a port. The motion thread, which may outlive this object, posts its output to the network thread.
     std::shared_ptr<SenderPort> make_port(std::function<void(const PortMessage&)> send) {
         auto port = std::make_shared<SenderPort>(machine_, lease_, settings_);
         port->send = [io = io_, send = std::move(send)](PortMessage said) {
@@ -102,7 +102,7 @@ class GrblPorts::Inside {
                         [port](const operate::StopReport& report) { port->stopped(report); });
         return port;
     }
-    /// Resumes reading after the motion thread has processed the input.
+    /// Returns a function that resumes reading; the motion thread calls it after it has processed the input.
     template <class Connection>
     std::function<void()> reading_on(const std::shared_ptr<Connection>& connection) {
         return [io = io_, connection = std::weak_ptr<Connection>(connection)] {
@@ -161,7 +161,7 @@ class GrblPorts::Inside {
             let_look_on(*visitor);
         visitor->line->read_on();
     }
-    /// Closes the oldest visitors that have not identified as senders when there are too many.
+    /// If the port is full, closes the oldest visitor that has not identified as a sender. Returns false if all have.
     bool close_idle() {
         if (visitors_.size() <= settings_.observers) return true;
         const auto oldest =
@@ -171,7 +171,7 @@ class GrblPorts::Inside {
         line->end();
         return true;
     }
-    /// No input takes effect before the client is known to be a sender.
+    /// Processes input; it has no effect before the client has identified as a sender.
     void received(Visitor& visitor, std::string bytes) {
         using Verdict = grbl::Introduction::Verdict;
         const bool known = visitor.is_sender;
@@ -197,7 +197,7 @@ class GrblPorts::Inside {
     void turn_away(Visitor& visitor) {
         if (settings_.on_unknown_sender && unknown_senders_.take("", std::chrono::steady_clock::now()))
             settings_.on_unknown_sender(visitor.address);
-        const auto line = visitor.line;  // it ends with its visitor
+        const auto line = visitor.line;  // kept alive, because its end removes the visitor
         line->end();
     }
     void let_write(Visitor& visitor) {
@@ -214,8 +214,8 @@ class GrblPorts::Inside {
                 ? "[MSG:Another sender has control. This one is an observer: only ? ! and resets are accepted]\r\n"
                 : "[MSG:Another sender has control. This one is an observer: only ? and ! are accepted]\r\n")});
     }
-    /// The place of a connection that was not a sender is taken by the sender that has waited longest. That of a sender
-    /// stays free: it may come back.
+    /// Removes a closed visitor. The place of a writer that never identified as a sender goes to the sender that has
+    /// waited longest; the place of a sender stays free for its return.
     void gone(Visitor* visitor) {
         const bool gives_way = visitor == writer_ && !visitor->is_sender;
         if (visitor == writer_) {
@@ -243,7 +243,7 @@ class GrblPorts::Inside {
         if (!made) return tl::unexpected<Error>(made.error());
         terminal_.emplace(std::move(*made));
         terminal_port_ = make_port([this](const PortMessage& said) {
-            if (terminal_->clients() > 0) terminal_line_->write(said);  // an unread line drops output that does not fit
+            if (terminal_->clients() > 0) terminal_line_->write(said);  // drops output that does not fit
         });
         terminal_line_ = std::make_shared<TerminalLine>(
             asio::posix::stream_descriptor(*io_, terminal_->take_master().give()), settings_.waiting);

@@ -4,11 +4,12 @@
 //   sender ──TCP──► 127.0.0.1:PORT ──grbl::Introduction─┐
 //   sender ──serial──► LINK ─► pts ─────────────────────┴─► grbl::GrblSession ─► operate::Machine
 //
-// One sender writes to the TCP port; the others observe, but their ? and ! are executed. A connection that took the
-// writer's place and never spoke as a sender loses it to the sender that has waited longest, which is greeted as after
-// a reset. Each port is a separate Grbl on the same machine; the control lease decides which may move it. The port has
-// neither pairing nor encryption and therefore serves programs on this computer only. A connection whose first bytes
-// are not those of a sender is ignored. The pseudo-terminal is accessible to its owner only.
+// One sender writes to the TCP port; the others observe, but their ? and ! are executed. A writer that has not
+// identified as a sender loses its place: after `silence` to the next sender that sends bytes, on its close to the
+// sender that has waited longest. The new writer is greeted as after a reset. Each port is a separate Grbl on the same
+// machine; the control lease decides which may move it. The port has neither pairing nor encryption and therefore
+// serves programs on this computer only. A connection whose first bytes are not those of a sender is closed. The
+// pseudo-terminal is accessible to its owner only.
 #pragma once
 
 #include <chrono>
@@ -31,7 +32,7 @@ struct GrblPortSettings {
     std::size_t waiting =
         std::size_t{1} << 20;  ///< maximum number of buffered bytes for a slow client; beyond it the client is closed
     bool resets_stop_all = false;  ///< resets also stop motion of other clients; resets of observers are executed
-    /// A writer that has said nothing for this time loses the port to the next sender that does.
+    /// A writer that has not identified as a sender for this time loses its place to the next sender that sends bytes.
     std::chrono::milliseconds silence{10'000};
     /// Called when a sender changes a setting, with a sentence. On the motion thread; must not block.
     std::function<void(const std::string& sender, const std::string& text)> on_setting = {};

@@ -39,14 +39,16 @@ HttpAnswer http_answer(const panel::Answer& answer);
 /// Returns an error answer: {"error":{"kind":..,"message":..}}.
 HttpAnswer http_error(int status, std::string_view trouble, std::string sentence);
 
-/// Parses an object. Errors: invalid_input with line and column: not JSON, not an object, or nested deeper than 16.
+/// Parses a JSON object, `what` in messages. Errors: invalid_input with line and column: not JSON, not an object, or
+/// nested deeper than 16.
 Result<nlohmann::json> read_object(std::string_view text, std::string_view what);
 
-/// "/api/card", and the %XX-decoded texts behind "?". Errors: invalid_input.
+/// Request target: path, "/api/card", and the %XX-decoded names and values behind "?".
 struct RequestTarget {
     std::string path;
     std::vector<std::pair<std::string, std::string>> texts;
 };
+/// Parses a request target. Errors: invalid_input: a % without two hexadecimal digits.
 Result<RequestTarget> read_target(std::string_view target);
 
 }  // namespace motionrack::server

@@ -17,7 +17,7 @@ using boost::system::error_code;
 namespace {
 
 constexpr std::chrono::milliseconds tick_every{5};
-constexpr int max_taken_at_once = 32;  ///< then serves the accepted ones
+constexpr int max_taken_at_once = 32;  ///< connections; then serves these before it accepts more
 
 /// Converts an IPv4-mapped IPv6 address to IPv4.
 asio::ip::address plain(const asio::ip::address& address) {
@@ -26,7 +26,8 @@ asio::ip::address plain(const asio::ip::address& address) {
     return address;
 }
 
-/// Makes data for a slow reader wait in our queue, which drops snapshots, instead of in the kernel's, which keeps all.
+/// Makes data for a slow reader wait in the client's queue, which drops snapshots, not in the kernel's, which keeps
+/// all.
 void keep_little_in_the_kernel(tcp::socket& socket) {
     const int unsent = 16 * 1024;
     ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
@@ -114,7 +115,7 @@ void PortListener::take_some() {
         if (error == asio::error::would_block) break;
         const bool is_full = error == asio::error::no_descriptors || error == asio::error::no_buffer_space ||
                              error == asio::error::no_memory || error.value() == ENFILE;
-        if (!is_full || close_idle()) continue;  // that one has closed already, or a place is free now
+        if (!is_full || close_idle()) continue;  // the connection has closed, or a descriptor is free now
         pause_.expires_after(tick_every);
         pause_.async_wait([this](error_code stopped) {
             if (!stopped && !ended_) accept();

@@ -29,7 +29,7 @@ class DescriptorReserve {
     std::vector<int> files_;
 };
 
-/// A socket that takes connections there and does not block. Errors: io, with what to do.
+/// Opens a non-blocking listening socket; port 0: any free one. Errors: io, with the remedy.
 Result<boost::asio::ip::tcp::acceptor> take_port(boost::asio::io_context& io, const boost::asio::ip::address& address,
                                                  std::uint16_t port);
 

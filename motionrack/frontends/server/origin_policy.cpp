@@ -1,4 +1,4 @@
-// Compares names without regard to case.
+// Checks the Host and Origin headers of requests; names are compared without regard to case.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 

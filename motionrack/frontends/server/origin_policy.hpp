@@ -9,14 +9,14 @@
 
 namespace motionrack::server {
 
-/// "Rack.local:8080" -> "rack.local", "[::1]:80" -> "::1"; empty: invalid name.
+/// Returns the name in a Host header: "Rack.local:8080" -> "rack.local", "[::1]:80" -> "::1"; empty: invalid.
 std::string host_name(std::string_view host);
 
 /// Key for limits: an IPv4 address, or the 64-bit network of an IPv6 address that one customer has,
 /// "2001:db8:0:1::/64".
 std::string network_of(const std::string& address);
 
-/// Shortens untrusted input for a sentence and removes characters that could disturb a terminal or a journal.
+/// Truncates untrusted input to 80 bytes for a message and replaces all but printable ASCII by '?'.
 std::string shown(std::string_view text);
 
 class OriginPolicy {

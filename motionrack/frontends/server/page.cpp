@@ -1,4 +1,4 @@
-// Reads the folder of the page.
+// Reads the files of the page and answers requests for them.
 #include <fmt/format.h>
 
 #include <array>
@@ -77,7 +77,7 @@ Result<Page> Page::read(const fs::path& folder) {
                             max_size >> 20, max_files),
                 {}, folder.string());
         const std::string name = fmt::format("/{}", it->path().lexically_relative(folder).generic_string());
-        // Names in assets/ contain a hash of the content.
+        // Names in assets/ contain a hash of the content, so browsers may cache these files for a year.
         const bool for_ever = name.rfind("/assets/", 0) == 0;
         page.files_[name == "/index.html" ? "/" : name] = {
             type_of(it->path().extension().string()), for_ever ? "public, max-age=31536000, immutable" : "no-cache",

@@ -21,7 +21,7 @@ class Page {
   public:
     /// A placeholder page that explains how to build the real one.
     Page();
-    /// A page of one text, its index.html.
+    /// Makes a page whose only file is this index.html.
     explicit Page(std::string_view html);
     /// Reads the regular files of a folder and its subfolders, without links; index.html is "/". Errors: io,
     /// invalid_input (no index.html, more than 64 MiB or 2000 files).
@@ -30,14 +30,14 @@ class Page {
     /// Adds the files of another page below a folder, "/docs"; its index.html is "/docs/" and "/docs/index.html".
     void mount(std::string_view folder, const Page& other);
 
-    /// "/", "/assets/index-1a2b.js"; nullptr if not found.
+    /// Finds a file by its whole path: "/", "/assets/index-1a2b.js"; nullptr if not found.
     const PageFile* find(std::string_view path) const;
 
   private:
     std::map<std::string, PageFile, std::less<>> files_;
 };
 
-/// The file for a request with this method; 404 and 405 with a sentence.
+/// Returns the file at a path; error answers: 404 (no such file), 405 (method other than GET and HEAD).
 HttpAnswer file_answer(const Page& page, const std::string& method, std::string_view path);
 
 }  // namespace motionrack::server

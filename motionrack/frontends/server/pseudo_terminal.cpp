@@ -43,7 +43,7 @@ tl::unexpected<Error> failed(const std::string& what) {
     return fail(ErrorKind::io, fmt::format("The pseudo-terminal was not created: {}: {}.", what, std::strerror(errno)));
 }
 
-/// Reserves a link for one program at a time, by a name that is released when the program ends for any reason.
+/// Reserves a link for this process: binds an abstract socket name, which the kernel releases when the process ends.
 Result<OpenFile> reserve(const std::string& link) {
     std::error_code trouble;
     const fs::path path =
@@ -65,7 +65,7 @@ Result<OpenFile> reserve(const std::string& link) {
                             link));
 }
 
-/// Checks the path of the link: free, or a link left by an earlier run.
+/// Checks that the path is free, or a link to a pseudo-terminal that belongs to this user.
 Result<void> check_place(const std::string& link) {
     struct stat about {};
     if (::lstat(link.c_str(), &about) != 0) return {};
@@ -85,7 +85,7 @@ Result<void> check_place(const std::string& link) {
     return {};
 }
 
-/// Replaces the link atomically.
+/// Creates the link, or replaces it atomically.
 Result<void> lead(const std::string& link, const std::string& target) {
     MOTIONRACK_CHECK(check_place(link));
     std::error_code trouble;

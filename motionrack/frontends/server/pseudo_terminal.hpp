@@ -6,7 +6,7 @@
 
 namespace motionrack::server {
 
-/// Closes a file on destruction.
+/// Owns a file descriptor; closes it on destruction.
 class OpenFile {
   public:
     explicit OpenFile(int file = -1) : file_(file) {}
@@ -38,11 +38,11 @@ class PseudoTerminal {
     /// Client activity since the last call.
     struct ClientActivity {
         bool left = false;  ///< the last client closed it
-        bool came = false;  ///< a client opened it as the only one, at or before that time
+        bool came = false;  ///< a client opened it while no other had it open; it may have left again
     };
     ClientActivity poll_client();
     int clients() const { return clients_; }
-    /// Descriptor that becomes readable when a call of poll_client() is needed.
+    /// Descriptor that becomes readable on client activity; then call poll_client().
     int watch() const { return watch_.number(); }
 
   private:

@@ -88,7 +88,7 @@ Result<void> SenderPort::may_stop() const {
             holder->user.empty() ? "another session" : holder->user));
 }
 
-/// A sender that loses control during its work must not continue the rest after the machine has stopped.
+/// Locks the session of a sender that has lost control, so that the rest of its lines is not executed.
 void SenderPort::see_control() {
     if (!had_control_) return;
     const auto holder = lease_.holder();

@@ -20,10 +20,11 @@ class SenderPort : public std::enable_shared_from_this<SenderPort> {
     std::function<void(PortMessage)> send;
 
     // ---- from the network thread
-    /// A writer is connected from now on. `address`: "127.0.0.1:4711" or a path; `id`: unique for the connection.
+    /// Starts the session of a new writer and greets it. `address`: "127.0.0.1:4711" or a path; `id`: unique for the
+    /// connection.
     void came(const std::string& user, const std::string& address, const std::string& id);
     void left();
-    /// `address`: of the client that sends them. `then`: called on the motion thread after these bytes were processed.
+    /// Processes input. `address`: of its client. `then`: called on the motion thread after these bytes were processed.
     void receive(std::string bytes, bool writer, const std::string& address, std::function<void()> then);
 
     // ---- the motion thread
@@ -42,7 +43,7 @@ class SenderPort : public std::enable_shared_from_this<SenderPort> {
     std::unique_ptr<grbl::GrblSession> session_;
     std::string user_ = "a sender", address_, id_ = "grbl";  ///< the current writer
     std::string speaker_;                                    ///< address of the client whose bytes are processed
-    bool had_control_ = false;                               ///< and no other client has taken it since
+    bool had_control_ = false;                               ///< the writer took it, and no other client has since
 };
 
 }  // namespace motionrack::server

@@ -81,7 +81,7 @@ void ServedRack::stop() {
     grbl_.reset();
 }
 
-/// On the network thread.
+/// Writes an audit entry to the journal; called on the network thread.
 void ServedRack::write_down(const AuditEntry& entry) {
     const nlohmann::json data = {
         {"user", entry.user}, {"address", entry.address}, {"command", entry.what}, {"status", entry.status}};

@@ -25,7 +25,7 @@
 
 namespace motionrack::server {
 
-/// Settings that one part needs from another are filled in: pacer, journal, user commands, audit, versions.
+/// Settings of all parts. ServedRack sets those that connect parts: pacer, journal, user commands, audit, versions.
 struct ServedSettings {
     operate::ClockMode clock = operate::ClockMode::real;
     double factor = 1;  ///< simulated seconds per second
@@ -43,10 +43,10 @@ struct ServedSettings {
 
 class ServedRack {
   public:
-    /// All parts exist and the ports are open; the machine is stationary until run(). Errors: those of the parts.
+    /// Makes all parts and opens the ports; the machine is stationary until run(). Errors: those of the parts.
     static Result<std::unique_ptr<ServedRack>> open(const rack::RackConfig& config, ServedSettings settings);
 
-    /// Works until machine().quit().
+    /// Runs the machine on the calling thread until machine().quit().
     void run() { machine_->run(); }
     /// Closes the ports; no client is served afterwards.
     void stop();

@@ -104,7 +104,7 @@ class Server::Inside {
     std::int64_t clients() const { return pool_->clients.count(); }
 
   private:
-    /// Checks every few ms whether all connections are closed.
+    /// Ends the network thread when all connections are closed, after 1 s at most; checks every 5 ms.
     void wait_for_the_last() {
         if (listener_->empty() || std::chrono::steady_clock::now() - stopped_ > close_timeout) return io_.stop();
         goodbye_.expires_after(std::chrono::milliseconds(5));

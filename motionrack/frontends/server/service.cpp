@@ -17,7 +17,7 @@ HttpAnswer with(HttpAnswer answer, std::string field, std::string value) {
     return answer;
 }
 
-/// Empty: the head has no token.
+/// Returns the bearer token of a request; empty: none.
 std::string token_of(const RequestHead& head) {
     return head.authorization.substr(0, 7) == "Bearer " ? head.authorization.substr(7) : "";
 }
@@ -28,7 +28,7 @@ bool is_websocket_key(std::string_view key) {
     return key.size() == 24 && key.find_first_not_of(digits) == 22 && key.substr(22) == "==";
 }
 
-/// Checks that RFC 6455 (4.2) requires of a server.
+/// Performs the checks that RFC 6455 (4.2) requires of a server. Returns the error answer, if any.
 std::optional<HttpAnswer> refuse_handshake(const RequestHead& head) {
     if (head.websocket_version != "13") {
         HttpAnswer answer = http_error(
@@ -75,7 +75,7 @@ PanelService::PanelService(ServerSettings settings, panel::Panel& panel, auth::A
 
 // ---- before the body
 
-/// Checks for every request except STOP.
+/// Rejects requests above the limits; applied to every request except STOP.
 std::optional<HttpAnswer> PanelService::refuse(const RequestHead& head) {
     if (head.peer.stop_only)
         return http_error(503, "limit",

@@ -45,9 +45,9 @@ class NetworkExecutor {
 
 /// Result of checking the head of a request.
 struct Admission {
-    std::optional<HttpAnswer> answer;  ///< complete answer; the body is ignored
+    std::optional<HttpAnswer> answer;  ///< set: complete answer, the body is ignored
     std::size_t body_limit = 0;
-    const panel::OperationSpec* row = nullptr;  ///< nullptr: pairing
+    const panel::OperationSpec* row = nullptr;  ///< requested operation; nullptr: pairing
     panel::Caller caller;
 };
 
@@ -59,8 +59,9 @@ class PanelService {
                  Page page, std::shared_ptr<NetworkExecutor> post);
 
     // ---- HTTP
+    /// Checks the head of a request. Answers it (rejected, page, STOP), or admits its body.
     Admission admit(const RequestHead& head);
-    /// `reply` is called once, on the network thread.
+    /// Executes an admitted request; `reply` is called once, on the network thread.
     void handle(const RequestHead& head, const Admission& admission, const std::string& body,
                 std::function<void(HttpAnswer)> reply);
     /// Returns nothing if the head may become a WebSocket, else the answer.
@@ -83,7 +84,7 @@ class PanelService {
     /// `is_known`: the client was authenticated; others may write only a limited number of audit entries.
     void audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer,
                bool is_known);
-    /// The server calls it every few ms.
+    /// Writes due summaries of unauthenticated clients to the audit. The server calls it every 5 ms.
     void tick() { unknown_senders_.tick(now().steady); }
     const ServerSettings& settings() const { return settings_; }
     auth::Timestamps now() const { return settings_.clock(); }

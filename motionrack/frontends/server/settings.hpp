@@ -38,10 +38,10 @@ struct Limits {
     std::size_t texts_waiting =
         500;                        ///< maximum answers and events queued for a client; beyond it the client is closed
     std::size_t asks_waiting = 64;  ///< maximum unanswered commands and queries of one client
-    std::chrono::milliseconds header{10'000};  ///< timeout of a head, a handshake and a client's token
-    std::chrono::milliseconds idle{60'000};    ///< between requests
-    std::chrono::milliseconds body{30'000};
-    std::chrono::milliseconds spare_time{3'000};
+    std::chrono::milliseconds header{10'000};     ///< timeout of a head, a handshake and a client's token
+    std::chrono::milliseconds idle{60'000};       ///< timeout between requests
+    std::chrono::milliseconds body{30'000};       ///< timeout of a body, and of sending an answer
+    std::chrono::milliseconds spare_time{3'000};  ///< timeout of a connection without a slot, and of closing
     std::chrono::milliseconds silence{
         20'000};  ///< timeout of the other end of a WebSocket; a ping is sent after half of it
 };
@@ -53,7 +53,7 @@ inline constexpr std::size_t max_audit_bytes = 200;
 struct AuditEntry {
     std::string user, address, what;
     int status = 200;     ///< HTTP status
-    std::string outcome;  ///< "done", or the sentence
+    std::string outcome;  ///< "done", or the error message
 };
 
 struct ServerSettings {

@@ -1,4 +1,4 @@
-// Connections of browsers on this computer that read files and nothing else.
+// Answers file requests of browsers on this computer.
 #include <fmt/format.h>
 
 #include <boost/asio/io_context.hpp>
@@ -18,7 +18,7 @@ namespace motionrack::server {
 
 namespace {
 
-constexpr std::chrono::seconds max_wait{60};            ///< for a head, and for the reader of an answer
+constexpr std::chrono::seconds max_wait{60};            ///< timeout of a head, and of sending an answer
 constexpr std::chrono::milliseconds accept_pause{100};  ///< after an error, such as no free descriptor
 
 /// State that all connections share.

@@ -19,14 +19,14 @@ using Request = http::request<http::string_body>;
 using Response = http::response<http::span_body<const char>>;
 
 RequestHead head_of(const Request& request, const Peer& peer);
-/// Points to the body of the answer, which must outlive the response.
+/// Converts an answer; the response refers to its body, which must outlive it.
 Response response_of(const HttpAnswer& answer, bool head_only, bool keep_alive);
-/// Returns 503 with this sentence as raw bytes; caches them per sentence.
+/// Returns the raw bytes of a 503 response with this sentence, cached per sentence.
 const std::string& last_word(std::string_view why);
 
 /// Starts to serve an accepted connection.
 void serve(Transport transport, Peer peer, std::shared_ptr<ConnectionPool> pool);
-/// Upgrades to a WebSocket in the slot of `before`.
+/// Upgrades a connection to a WebSocket, which takes over the slot of `before`.
 void serve_stream(Transport transport, Request request, Peer peer, std::shared_ptr<ConnectionPool> pool,
                   OpenConnection* before);
 

@@ -63,7 +63,7 @@ class StreamConnection final : public OpenConnection,
         if (!opened_) return socket_.next_layer().tcp().close();  // its handshake is still being written
         reason_.emplace(static_cast<websocket::close_code>(code), beast::string_view(reason.data(), reason.size()));
         if (!writes_) return say_goodbye();
-        // A client that does not read receives no reason either.
+        // A client that does not read would not receive the close frame either.
         if (code == websocket::close_code::try_again_later) socket_.next_layer().tcp().close();
     }
 

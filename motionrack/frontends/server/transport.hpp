@@ -53,7 +53,7 @@ class CompletionHandler {
     std::unique_ptr<HandlerHolder> held_;
 };
 
-/// The first buffers of a sequence of any type: a read or a write transfers some bytes, not all.
+/// First 16 non-empty buffers of a sequence of any type; a read or a write need not transfer all bytes.
 template <class Buffer>
 class FirstBuffers {
   public:
@@ -94,7 +94,7 @@ class Transport {
 
     void read_some(const FirstBuffers<asio::mutable_buffer>& into, CompletionHandler done);
     void write_some(const FirstBuffers<asio::const_buffer>& from, CompletionHandler done);
-    /// Closes a WebSocket.
+    /// Closes the stream below a WebSocket.
     void tear_down(beast::role_type role, CompletionHandler done);
 
     // ---- the requirements of Beast

@@ -69,7 +69,7 @@ class Flood {
     std::thread thread_;
 };
 
-/// Half of the STOPs at least are answered in time. `stop` returns the HTTP status of a STOP.
+/// Expects at least half of 30 STOPs to be answered in time. `stop` sends a STOP and returns its HTTP status.
 template <class Stop>
 void expect_stops_heard(const Flood& flood, const std::string& name, const Stop& stop) {
     while (flood.count() < 500) std::this_thread::yield();

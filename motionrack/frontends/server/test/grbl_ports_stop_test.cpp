@@ -1,4 +1,4 @@
-// A STOP while a sender at a port has lines under way: none of them is driven.
+// A STOP discards the pending lines of a sender at a port.
 #include <gmock/gmock.h>
 
 #include "sender_ports.hpp"
@@ -9,7 +9,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Over TCP, or over the pseudo-terminal.
+/// Parameter: true: sender at the pseudo-terminal; false: at the TCP port.
 class StoppedSenderPort : public SenderPorts, public testing::WithParamInterface<bool> {};
 INSTANTIATE_TEST_SUITE_P(Over, StoppedSenderPort, testing::Bool(),
                          [](const auto& each) { return each.param ? "TheTerminal" : "Tcp"; });

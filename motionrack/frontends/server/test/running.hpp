@@ -20,7 +20,7 @@
 
 namespace motionrack::server {
 
-/// Two axes with valid positions; simulated 20 s per second.
+/// Two axes with valid positions, at 20 simulated seconds per second.
 class Running {
   public:
     using Change = std::function<void(ServerSettings&)>;
@@ -95,13 +95,13 @@ class Running {
         const std::lock_guard<std::mutex> alone(lock);
         later += time;
     }
-    /// Returns the axis positions from the start of the program until they no longer change.
+    /// Returns, for every status while a program runs, the ticks since the first one and the pulses of X and Y.
     std::vector<std::array<std::int64_t, 3>> path() {
         const std::lock_guard<std::mutex> alone(lock);
         return path_;
     }
 
-    std::optional<test::MachineWatch> watch;  ///< the laws of every run, to the machine's last slice
+    std::optional<test::MachineWatch> watch;  ///< checks the invariants of every run until the machine's last slice
     std::unique_ptr<ServedRack> served;
     std::thread thread;
     std::mutex lock;

@@ -131,7 +131,7 @@ class SenderPorts : public testing::Test {
         std::filesystem::temp_directory_path() / ("motionrack-ports-" + std::to_string(::getpid()));
     GrblPortSettings settings_;
     auth::ControlLease lease_;
-    std::optional<test::MachineWatch> watch_;  ///< the laws of every run, to the machine's last slice
+    std::optional<test::MachineWatch> watch_;  ///< checks the invariants of every run until the machine's last slice
     std::unique_ptr<operate::Machine> machine_;
     std::unique_ptr<GrblPorts> ports_;
     std::thread thread_;

@@ -1,4 +1,4 @@
-// The one client of the TCP port that may write: its slot when the writer goes or says nothing.
+// Writer's slot of the TCP port: which client receives it when the writer disconnects or stays silent.
 #include <gmock/gmock.h>
 
 #include <chrono>

@@ -147,7 +147,7 @@ TEST(StreamConnection, EndsItsJogsWhenItCloses) {
     EXPECT_LT(stood["status"]["axes"][0]["commanded"], 290) << "it stopped long before the end of its travel";
 }
 
-/// Half of the jogs at least stand within 50 ms of the close; their lease would last an hour.
+/// At least half of the jogs stop within 50 ms of the close, although their lease lasts an hour.
 TEST(StreamConnection, EndsItsJogsWithin50MsOfItsClose) {
     Running running({}, {}, whole_seconds(3600));
     const std::string token = running.token("anna");

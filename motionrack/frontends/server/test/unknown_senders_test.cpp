@@ -22,7 +22,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
-// ---- open_connections
+// ---- connection slots
 
 struct Someone final : OpenConnection {
     void end(std::string_view) override { ended = true; }

@@ -1,4 +1,4 @@
-// Plain sockets.
+// Sends and receives over blocking sockets, with OpenSSL for TLS.
 #include "web_client.hpp"
 
 #include <arpa/inet.h>

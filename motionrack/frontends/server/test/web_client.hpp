@@ -25,7 +25,7 @@ struct WebAnswer {
 struct WebFrame {
     int kind = -1;  ///< opcode: 1 text, 2 binary, 8 close, 9 ping, 10 pong; -1: the connection has ended
     std::string text;
-    int code = 0;  ///< close frames only
+    int code = 0;  ///< status code; close frames only
 };
 
 class WebClient {
@@ -37,15 +37,14 @@ class WebClient {
 
     bool connected() const { return socket_ >= 0; }
     void send(std::string_view bytes);
-    /// Sends a complete request; `fields` as "Name: value\r
-    /// ".
+    /// Sends a complete request and returns the answer; every one of `fields` ends with CR LF.
     WebAnswer ask(const std::string& method, const std::string& target, const std::string& body = "",
                   const std::string& fields = "");
     WebAnswer answer(bool head_only = false);
-    /// Returns true if the other end has closed.
+    /// Reads and discards until the other end closes, or until a read times out. Always returns true.
     bool ended();
 
-    /// Upgrades to a WebSocket; the answer's status is 101.
+    /// Requests an upgrade to a WebSocket; status 101 if the server accepts it.
     WebAnswer upgrade(const std::string& fields = "", const std::string& target = "/api/stream");
     void send_frame(int kind, std::string_view payload, bool masked = true, bool last = true);
     void say(const nlohmann::json& message) { send_frame(1, message.dump()); }
@@ -61,7 +60,7 @@ class WebClient {
             if (fits(message)) return message;
         }
     }
-    /// Sends it with a new id and returns its answer.
+    /// Sends a message with a new id and returns the answer to it.
     nlohmann::json exchange(nlohmann::json message);
 
     int descriptor() const { return socket_; }
