@@ -293,7 +293,7 @@ typedef struct mr_run_result {
     int line, column;     /* position of the first error, from 1; 0: no position */
     double seconds;       /* duration in virtual time */
     double path_mm;       /* length of the path in X, Y, Z */
-    double deviation_mm;  /* maximum deviation from the program, mm, by the positions of the last mr_home */
+    double deviation_mm;  /* maximum deviation from the programmed path, mm, in the coordinates of the last mr_home */
     const char* sentence; /* how the program ended, then one line per error; valid until the next program or mr_home of
                            * this rack, or its end */
 } mr_run_result;
@@ -302,7 +302,7 @@ typedef struct mr_run_result {
  * Programs may follow each other at any time. `path_or_text` is the path of a file, whose folder has the subprograms,
  * or, if it contains a line end, the text. The whole program is checked first: if it has a mistake, nothing moves, and
  * mr_last_error() has one line per mistake, with line and column. Wires may be forced, faults injected and recordings
- * started before the call; during it counters are recorded every 50 ms.
+ * started before the call; during it a recording stores counters every 50 ms.
  *
  * The program starts at the controller's position of the axes: the initial position of the rack file or that of the
  * last mr_home, plus all pulses that the card has sent since, by any command (for a servo: the rotation of its motor).
@@ -319,7 +319,7 @@ MR_API int mr_run_program(mr_rack* rack, const char* path_or_text, const mr_run_
 
 /* Homes axes as `motionrack home` does: "XY" or "x, y"; NULL or "": every axis with a home switch. The rack file
  * defines the homing method of each. MR_BAD_CALL, MR_REFUSED (unknown axis; no home switch; called by a call-back; an
- * active emergency stop, after the time of the bus accesses): nothing moved. MR_MACHINE (a switch was not found, or the
+ * active emergency stop; time advances by the bus accesses): nothing moved. MR_MACHINE (a switch was not found, or the
  * machine stopped): the axes are at standstill. */
 MR_API int mr_home(mr_rack* rack, const char* axes);
 

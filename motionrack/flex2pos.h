@@ -38,7 +38,7 @@ MR_API int flex2pos_open(mr_rack* rack, flex2pos** flex);
 /* Closes and frees the object. Has no effect for NULL. */
 MR_API void flex2pos_close(flex2pos* flex);
 
-/* Results of Init and Configure. The names are the source's; the numbers are chosen. */
+/* Results of Init and Configure. The names are the source's; the numbers are Motionrack's. */
 enum { Flex_Ok = 0, Flex_ErrCfg = 1, Flex_ErrDevice = 2, Flex_ErrProject = 3 };
 
 /* Selects the card at the base address, loads its array and checks the project. Uses the image of the card in the rack
@@ -83,7 +83,7 @@ MR_API void flex2pos_ReadTimeClrPosition(flex2pos* flex, int32_t* Time, int32_t 
 MR_API void flex2pos_WriteOutL(flex2pos* flex, uint8_t Data);
 MR_API void flex2pos_WriteOutH(flex2pos* flex, uint8_t Data);
 
-/* Return the low and the high 8 of the 16 inputs. From bit 0 on: A, B, Z and Cal of axes 0 and 1; of axes 2 and 3. */
+/* Return the 16 inputs, from bit 0 on A, B, Z, Cal of an axis: L of axes 0 and 1, H of axes 2 and 3. */
 MR_API uint8_t flex2pos_ReadInL(flex2pos* flex);
 MR_API uint8_t flex2pos_ReadInH(flex2pos* flex);
 

@@ -1,4 +1,4 @@
-// motionrack/c.h over rack::Session.
+// Implements the functions of motionrack/c.h for racks, buses, wires and recordings with rack::Session.
 #include <fmt/format.h>
 
 #include <motionrack/frontends/c/calls.hpp>
@@ -35,7 +35,7 @@ int read(mr_rack* rack, const char* card, std::uint32_t address, Word* value) {
                    [&] { return rack->session->read(card, bits_of<Word>, address); });
 }
 
-/// Errors: as Session::open; invalid_input for the address of a real card.
+/// Opens a session for a rack file or its text. Errors: as Session::open; invalid_input for the address of a real card.
 Result<std::unique_ptr<Session>> open_session(std::string_view path_or_text) {
     if (!motionrack::live::names_real_card(path_or_text)) return Session::open(path_or_text, Session::Programs::yes);
     std::string reasons;

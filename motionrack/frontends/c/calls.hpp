@@ -1,5 +1,5 @@
-// Shared parts of the C interface functions: checks pointers, converts errors to codes and sentences, lets no exception
-// out.
+// Shared parts of the C interface functions: they check pointers, convert errors to codes and sentences, and catch all
+// exceptions.
 #pragma once
 
 #include <motionrack/c.h>
@@ -14,7 +14,7 @@
 
 struct mr_rack {
     std::unique_ptr<motionrack::rack::Session> session;
-    std::string sentence = {}, report = {};  ///< report of the last program or homing
+    std::string sentence = {}, report = {};  ///< results of the last program or homing
 };
 
 namespace motionrack::c {
@@ -22,7 +22,7 @@ namespace motionrack::c {
 /// Returns the last error sentence of this thread.
 std::string& last_error();
 
-/// Stores the sentence if memory allows.
+/// Stores the sentence for mr_last_error (an empty one if out of memory) and returns the code.
 inline int failed(int code, std::string_view sentence) noexcept {
     try {
         last_error() = sentence;
@@ -48,11 +48,12 @@ inline int code_of(ErrorKind trouble) {
     return MR_INTERNAL;
 }
 
-/// Returns the sentence for the first null pointer, or nullptr if none is null.
+/// Pointer argument and the error sentence to report if it is null.
 struct Pointer {
     const void* pointer;
     const char* sentence;
 };
+/// Returns the sentence of the first null pointer, or nullptr if none is null.
 inline const char* first_null(std::initializer_list<Pointer> pointers) noexcept {
     for (const Pointer& each : pointers)
         if (each.pointer == nullptr) return each.sentence;
@@ -77,7 +78,7 @@ int guarded(std::initializer_list<Pointer> pointers, Call call) noexcept {
     return guarded(call);
 }
 
-/// Stores the value of `call` there on success.
+/// As above; on success stores the value of `call` in *value.
 template <class Value, class Call>
 int fetched(std::initializer_list<Pointer> pointers, Value* value, Call call) noexcept {
     return guarded(pointers, [&]() -> Result<void> {

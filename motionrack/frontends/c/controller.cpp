@@ -1,4 +1,4 @@
-// motionrack/c.h: programs and homings.
+// Implements the functions of motionrack/c.h for programs and homing.
 #include <functional>
 #include <motionrack/frontends/c/calls.hpp>
 #include <motionrack/rack/homing.hpp>
@@ -46,12 +46,12 @@ ProgramRequest order_of(const char* path_or_text, const mr_run_options* options)
     return out;
 }
 
-/// Rejects a call from inside a callback and keeps the results of the outer call.
+/// Returns true inside a callback: the call must be rejected, so that the results of the outer call are kept.
 bool is_refused_in_call_back(const mr_rack& rack) {
     return !rack.session->check_free().has_value();
 }
 
-/// Returns the code and stores the sentence of a finished operation.
+/// Returns the code of a finished operation; stores the sentence of its error, or the report if that is empty.
 int finished(mr_rack& rack, const Result<void>& ended, const std::string& sentence) {
     const int code = code_of_end(ended);
     return code == MR_OK ? code : failed(code, sentence.empty() ? rack.report : sentence);

@@ -1,4 +1,4 @@
-// motionrack/flex2pos.h over the function library of the IOFLEX02.
+// Implements motionrack/flex2pos.h with the function library of the IOFLEX02.
 #include <fmt/format.h>
 #include <motionrack/flex2pos.h>
 
@@ -23,7 +23,7 @@ static_assert(flex2pos_payload == io::min_payload);
 struct flex2pos {
     flex2pos(motionrack::rack::Session& of, motionrack::sim::VirtualPort& port)
         : session(of), config(of.rack().config()), library(port, port) {}
-    const motionrack::rack::Session& session;    ///< outlives this
+    const motionrack::rack::Session& session;    ///< must outlive the object
     const motionrack::rack::RackConfig& config;  ///< configuration of its rack
     io::Flex2Pos library;
 };
@@ -31,8 +31,8 @@ struct flex2pos {
 namespace {
 constexpr const char* no_object = "The object is a null pointer; open one with flex2pos_open. Nothing was done.";
 
-/// Returns the value of `call`, or 0 for a null object, inside a callback of its rack, or without memory for a
-/// sentence.
+/// Returns the value of `call`. Returns 0 and stores the error for a null object, inside a callback of its rack, or if
+/// out of memory.
 template <class Call>
 auto with(flex2pos* flex, Call call) noexcept -> decltype(call(flex->library)) {
     using Value = decltype(call(flex->library));

@@ -1,4 +1,4 @@
-// The frames of motionrack/c.h over the function library of the grating bus cards.
+// Implements mr_frame_read and mr_frame_wait of motionrack/c.h with the function library of the grating bus cards.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ void copy(const gb::Frame& from, mr_frame& to) {
     std::copy_n(from.addresses.begin(), from.words, to.addresses);
 }
 
-/// Returns the value that `take` reads from the card's library.
+/// Reads a frame of the named grating bus card with `take` and stores it in `frame`.
 template <class Take>
 Result<void> read_frame(rack::Session& session, std::string_view name, mr_frame& frame, Take take) {
     MOTIONRACK_TRY(const rack::Card* card, rack::card_named(session.rack(), name));

@@ -1,4 +1,4 @@
-// motionrack/c.h: lists of the contents of a rack.
+// Implements mr_quantities and mr_faults of motionrack/c.h.
 #include <motionrack/frontends/c/calls.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/quantities.hpp>

@@ -1,4 +1,4 @@
-// Condition callback: each condition once, in order, at its instant; the calls allowed inside it.
+// Condition callback: it reports each condition once, in order, at its instant; the calls allowed inside it.
 #include <gmock/gmock.h>
 
 #include <motionrack/frontends/c/test/world.hpp>
@@ -65,7 +65,7 @@ void drive(World& world) {
     world.write(0x00, 0x0122);
 }
 
-/// Pushes the table during the motion, and stops at once.
+/// Drives X for 600 ms: injects a loss of 64 pulses at 120 ms and commands an instant stop at 240 ms.
 void drive_and_stop(World& world, std::uint64_t step) {
     drive(world);
     for (std::uint64_t at = 0; at < 600'000'000; at += step) {

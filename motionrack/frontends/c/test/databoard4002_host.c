@@ -76,7 +76,7 @@ static void the_demonstration_runs(const listing* l, int laps) {
     }
     CHECK(!h.gave_up);
     CHECK(h.max_wait_ns < 127 * MS);
-    CHECK(h.max_wait_ns < 4 * MS); /* a BASIC statement or two; far less by the assembler's looks */
+    CHECK(h.max_wait_ns < 4 * MS); /* one or two BASIC statements; far less for the assembler's polls */
     CHECK(strstr(h.said, "STOP") == NULL && strstr(h.said, "MARGIN") == NULL);
     mr_rack_close(h.rack);
 }
@@ -115,7 +115,7 @@ static void after_an_emergency_stop_nothing_moves_until_the_next_go(const listin
     init(&h, l);
     store_slope(&h, l, 1);
     go_position(&h, l, 1000, 33000ull * MS);
-    CHECK(h.gave_up); /* neither program has a way out of its wait */
+    CHECK(h.gave_up); /* neither program can leave its wait */
     CHECK(strcmp(h.said, "EMERGENCY STOP.|") == 0);
     there = position(&h);
     CHECK(there > 10000 && there < 51200);
@@ -145,7 +145,7 @@ static void the_functional_test_passes(void) {
     CHECK(in_strobe(&h, &assembler, DATA) == 0);
     out_strobe(&h, &assembler, C2, 'V');
     CHECK(in_strobe(&h, &assembler, DATA) == 0x20);
-    out(&h, CS, CARD + 1); /* another card: this one neither answers nor listens */
+    out(&h, CS, CARD + 1); /* selects another card: this one neither answers nor accepts commands */
     out(&h, C2, 'A');
     CHECK(in(&h, STAT) == 0xff);
     out(&h, CS, CARD);
@@ -174,7 +174,7 @@ static void numbers_positions_and_interrupts(void) {
     out_strobe(&h, &assembler, DATA, (unsigned)-10 >> 8);
     out_strobe(&h, &assembler, DATA, (unsigned)-1);
     pass(&h, 100 * MS);
-    CHECK(position(&h) == 0); /* nothing before G */
+    CHECK(position(&h) == 0); /* no motion before G */
     out_strobe(&h, &assembler, C2, 'G');
     pass(&h, 5 * MS);
     CHECK(position(&h) == -10);
@@ -196,7 +196,7 @@ static void numbers_positions_and_interrupts(void) {
         CHECK(number_from(&h, 'P', 3) == -10 - 10 * (long)round);
     }
     CHECK(number_from(&h, 'D', 3) == 0 && number_from(&h, 'R', 2) == 0);
-    out_strobe(&h, &assembler, C4, 0x40); /* interrupt while Ready: it goes away for each access */
+    out_strobe(&h, &assembler, C4, 0x40); /* interrupt while Ready: inactive while an access is processed */
     wait_ready(&h, &assembler);
     CHECK(wire(&h, "c1.int") == 1);
     out(&h, C2, 'W');
@@ -228,7 +228,7 @@ static void both_resets_stop_at_once(void) {
         CHECK(wire(&h, "c1.vout") == 0 && wire(&h, "c1.relay") == 0);
         there = position(&h);
         pass(&h, 1000 * MS);
-        CHECK(there == 0 && position(&h) == 0); /* home is where it stands */
+        CHECK(there == 0 && position(&h) == 0); /* the reset sets the position to 0 */
         CHECK(in(&h, STAT) == READY);
         out_strobe(&h, &assembler, C4, 0);
         CHECK(in_strobe(&h, &assembler, DATA) == 0x80);

@@ -1,5 +1,5 @@
-/* An 8-bit host in front of a DataBoard 4002, port by port, and the routines of the maker's two demonstration programs
- * as they are listed: in assembler for a Z80 at 4 MHz, and in BASIC.
+/* An 8-bit host that accesses a DataBoard 4002 port by port, and the routines of the manufacturer's two demonstration
+ * programs as they are listed: in assembler for a Z80 at 4 MHz, and in BASIC.
  *
  *   program ── OUT port, IN port ──► mr_write8, mr_read8 ──► card c1 ──► pulses ──► an ideal motor ──► counter
  *           └─ the time an instruction takes ──► mr_advance_ns
@@ -21,13 +21,13 @@ static int failures = 0;
         }                                                                                 \
     } while (0)
 
-/* Names and numbers of both listings. */
+/* Port numbers, bits of STAT and EVENT as named in both listings; times in ns. */
 enum { DATA = 0, STAT = 1, CS = 1, C2 = 3, C3 = 4, C4 = 5, RST = 7, CARD = 13 };
 enum { READY = 0x80, LEFT = 0x40, RIGHT = 0x20, EMERGENCY = 0x10, EVENT = 0x02, INTERRUPT = 0x01 };
 enum { T_STATE = 250, BUS = 250, MS = 1000000 };
 
-/* Time between two looks for an event, as a multiple of the program's own. AddressSanitizer makes each of the millions
- * of looks many times slower: under it the program looks less often, and nothing else changes. */
+/* Time between two polls for an event, as a multiple of the listing's. AddressSanitizer slows each of the millions of
+ * polls: with it, the program polls less often, and nothing else changes. */
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define LOOKS_APART 20
@@ -45,10 +45,10 @@ typedef struct {
 
 typedef struct {
     mr_rack* rack;
-    uint64_t max_wait_ns; /* for Ready */
+    uint64_t max_wait_ns; /* longest wait for Ready */
     uint8_t tape[1024];   /* accesses to C2, C4 and DATA: the port, 40h added for IN, then the byte */
     unsigned taped;
-    char said[256]; /* what the program put on its screen */
+    char said[256]; /* texts that the program displayed */
     int gave_up;    /* "unit never ready", or a wait for an event that never came */
     const happening* next;
     const happening* end;
@@ -128,10 +128,10 @@ static const unsigned acceleration[INTERVALS][2] = {
 /* Differences between the two listings. */
 typedef struct {
     const char* name;
-    unsigned ready_looks;   /* before "unit never ready" */
-    uint64_t ready_look_ns; /* how long one takes, beside the IN */
+    unsigned ready_looks;   /* polls of READY before "unit never ready" */
+    uint64_t ready_look_ns; /* duration of one poll without the IN */
     uint64_t event_look_ns; /* the same in the loop that waits for an event */
-    uint64_t call_ns;       /* from the return of one access to the first look for the next */
+    uint64_t call_ns;       /* from the return of one access to the first poll for the next */
     unsigned stretch_2; /* positions of slope type 2: the BASIC program doubles them, the assembler program does not */
     /* 0: displaying a text overwrites STAT, so that later stops are not reported. As printed, PRINTSTR of the assembler
      * program leaves its function code for OS8 in A. Its bits are not printed; none is assumed to be a stop bit. */
@@ -166,7 +166,7 @@ static const listing basic = {"basic",
                               "IN POSITION.",
                               "FATAL ERROR !! UNIT NEVER READY !"};
 
-/* WAITRDY; FNWaitrdy, 2840. */
+/* Routines of the listings, here and below: assembler label; BASIC function, its line. WAITRDY; FNWaitrdy, 2840. */
 static void wait_ready(host* h, const listing* l) {
     const uint64_t from = mr_now_ns(h->rack);
     unsigned poll;
@@ -235,7 +235,7 @@ static uint8_t say_stop(host* h, const listing* l, const char* text, uint8_t sta
     return l->keeps_status ? status : 0;
 }
 
-/* GOPOSIT; FNGoPosition, 1860. Unlike the programs, gives up if nothing happens for `patience_ns`. */
+/* GOPOSIT; FNGoPosition, 1860. Unlike the programs, gives up if no event comes within `max_ready_wait_ns`. */
 static void go_position(host* h, const listing* l, unsigned target, uint64_t max_ready_wait_ns) {
     uint8_t event = 0;
     out_strobe(h, l, C2, 'P');

@@ -11,7 +11,7 @@ static void expect(int good, const char* what) {
     ++wrong;
 }
 
-/* Forces a line of an encoder for 2 us. */
+/* Forces a line of an encoder to a level and advances time by 2 us. */
 static void set(mr_rack* rack, const char* wire, int level) {
     expect(mr_wire_set(rack, wire, level) == MR_OK, wire);
     expect(mr_advance_ns(rack, 2000) == MR_OK, "time");
@@ -24,7 +24,7 @@ static void line_of_axis_1(mr_rack* rack) {
     set(rack, "p1.b1", 0);
 }
 
-/* User-defined images: made, checked, loaded. */
+/* Makes, checks and loads user-defined images. */
 static void images(flex2pos* flex) {
     static const uint8_t reversed[flex2pos_payload] = {1, 0, 1, 0, 1, 0, 1, 0};
     uint8_t image[100];
@@ -51,7 +51,7 @@ static void images(flex2pos* flex) {
     expect(flex2pos_Configure(flex, NULL, 0) == Flex_Ok && flex2pos_GetIdent(flex) == 0x25, "the image of Init again");
 }
 
-/* The image that the rack file gives the card is the one of Init. */
+/* Init loads the image that the rack file gives the card. */
 static void image_of_the_rack(void) {
     static const char start[] = "[card.p1]\ntype = \"ioflex02\"\npreloaded = false\nimage = \"";
     char text[400];

@@ -19,7 +19,7 @@ static const char* const crate =
     "[card.host]\ntype = \"grating_bus\"\naddresses = \"5, 2, 9\"\n"
     "[card.slave]\ntype = \"grating_bus\"\naddresses = \"5, 2, 9\"\n";
 
-/* Moves scale 2 forward by `counts`. */
+/* Moves scale 2 forward by `counts`: forces its lines A and B in turn. */
 static void turn(mr_rack* rack, int counts) {
     for (int i = 0; i < counts; ++i) {
         CHECK(mr_wire_set(rack, i % 2 == 0 ? "decoder.a2" : "decoder.b2", i % 4 < 2) == MR_OK);

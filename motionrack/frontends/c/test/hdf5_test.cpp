@@ -31,7 +31,7 @@ Changes read(const trace::RecordingReader& recording, const std::string& name) {
     return out;
 }
 
-/// As above for a table of changes.
+/// Changes of a signal in a CSV recording, without its initial value; values in multiples of `unit`.
 Changes of_csv(const std::string& text, const std::string& name, double unit = 1) {
     std::istringstream lines(text);
     Changes out;

@@ -1,4 +1,4 @@
-// mr_quantities and mr_faults: everything known to the rack, with correct ranges.
+// mr_quantities and mr_faults list every quantity and fault of a rack, with correct ranges.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -55,7 +55,7 @@ std::vector<Fault> faults(mr_rack* rack) {
     return out;
 }
 
-/// A rack of each card type alone, and those of the examples with all parts.
+/// Racks with one card of each type, and the example racks, which together have all parts.
 std::vector<std::string> racks() {
     std::vector<std::string> out = {with_switches};
     for (const std::string_view type : rack::card_type_names()) out.push_back(fmt::format("card.c1 = \"{}\"", type));

@@ -83,7 +83,7 @@ TEST(CPrograms, MotionByRegistersIsIncludedInTheStartPosition) {
     run(world, to_15_10, MR_REFUSED);
     EXPECT_THAT(mr_last_error(), HasSubstr("Axis X moves at"));
     world.pass(1'000'000'000);
-    world.command(1, 0x09, 12'345);  // the host owns the card's counter
+    world.command(1, 0x09, 12'345);  // the host may write to the card's counter
     const mr_run_result result = run(world, to_15_10);
     EXPECT_NEAR(result.path_mm, 9 + 10, 1e-9) << "from 5 mm + 640 pulses";
     EXPECT_LT(result.deviation_mm, 0.02);
@@ -206,7 +206,7 @@ TEST(CPrograms, AfterAnEmergencyStopAxesAreHomedAndProgramsRunAgain) {
     stands_at(world, 15, 10);
 }
 
-// ---- a self-positioning axis
+// ---- a servo axis of a databoard4002
 
 constexpr const char* carriage = R"(
 [card.board]

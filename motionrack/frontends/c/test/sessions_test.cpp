@@ -1,4 +1,4 @@
-// All sessions of these tests are under the laws of sessions (tests/invariants/c_sessions.cpp).
+// Checks that the invariants of sessions (tests/invariants/c_sessions.cpp) are checked in all tests of this module.
 #include <motionrack/frontends/c/test/world.hpp>
 #include <tests/invariants/c_sessions.hpp>
 

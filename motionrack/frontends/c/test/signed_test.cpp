@@ -1,4 +1,4 @@
-// A negative position is the same number at the register, by name, at a wire, in a frame and in each recording.
+// A negative position reads as the same number from the register, by name, at a wire, in a frame and in each recording.
 #include <gmock/gmock.h>
 
 #include <motionrack/frontends/c/test/world.hpp>
@@ -34,7 +34,7 @@ std::int64_t peeked(mr_rack* rack, const char* card, const char* name) {
 }
 
 TEST(CSigned, ANegativeScaleIsOneNumberInEveryView) {
-    // Of each ending: the texts of the two numbers at bus.data.
+    // For each file ending: the texts of the two numbers at bus.data.
     const std::pair<std::string, std::pair<std::string, std::string>> recordings[] = {
         {".csv", {"bus.data,-1\r", "bus.data,-32943\r"}}, {".vcd", {"\nr-1 ", "\nr-32943 "}}};
     for (const auto& [ending, texts] : recordings) {

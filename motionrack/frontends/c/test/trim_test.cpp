@@ -1,4 +1,4 @@
-// The trim table that came with a DataBoard 4002, over the C interface.
+// Trim table (voltage and rate) of a DataBoard 4002 in a rack over the C interface.
 #include <gmock/gmock.h>
 
 #include <motionrack/frontends/c/test/world.hpp>

@@ -107,7 +107,7 @@ TEST(CWires, EncoderInputsCountForcedLevelsAndThenTheEncoderAgain) {
     EXPECT_EQ(world.part("X.position_counts"), 3000);
 }
 
-/// With COMP+ on EP: a manual count crosses it.
+/// COMP+ compares with EP: a count forced at the inputs reaches it.
 TEST(CWires, ForcedEncoderInputsTriggerComparisons) {
     World world;
     world.write(0x00, 0x010F);
@@ -121,7 +121,7 @@ TEST(CWires, ForcedEncoderInputsTriggerComparisons) {
     EXPECT_EQ(world.peek("x.RR1") & 1, 1);
 }
 
-/// Manually, at a connected encoder and at open inputs.
+/// Forces the inputs, once with a connected encoder and once with open inputs.
 TEST(CWires, CountsUpAndDownPulsesInTheModeForThem) {
     const std::string open = std::string(with_switches) + "[wires]\nc1.xeca = \"open\"\nc1.xecb = \"open\"\n";
     for (const char* text : {one_card, open.c_str()}) {
