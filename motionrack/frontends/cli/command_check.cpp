@@ -167,7 +167,7 @@ void add_canon(CLI::App& app, Action& chosen) {
             auto settings = program_settings(*config, options->file, options->reading, code);
             if (!settings) return code;
             if (options->rack.empty()) settings->limits = boundless();
-            settings->probe = true;  // the meaning of a probing move does not depend on the rack
+            settings->probe = true;  // accepts probing moves even if the rack has no probe
             const auto done = gcode::print_canon(
                 *text, *settings, how, [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); },
                 options->file);

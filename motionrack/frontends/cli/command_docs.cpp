@@ -1,4 +1,4 @@
-// docs: the documentation, searchable in a browser, without a network.
+// docs: serves the documentation and its search to a browser on this computer, without a network.
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -42,7 +42,7 @@ void show(const FeedOptions& options, const rack::FrameMonitor& watch, Instant n
     std::fflush(stdout);
 }
 
-/// The simulated time is the time since the start. Returns the number of frames delivered.
+/// Runs the rack in real time and passes received frames to its remote cards. Returns the number of frames delivered.
 std::uint64_t run_feed(const FeedOptions& options, rack::Rack& rack, const rack::FrameMonitor& watch,
                        dds::RemoteFeed& feed) {
     const std::vector<grating_bus::Card*> cards = remote_cards(rack);

@@ -30,7 +30,7 @@ struct PublishOptions {
     bool json = false, quiet = false;
 };
 
-/// Frames of a card in a rack.
+/// Frames of a card in a rack until `end`; runs the rack from frame to frame.
 class RackFrames final : public dds::FrameSource {
   public:
     RackFrames(rack::FrameStepper& tap, rack::FaultSchedule& faults, Instant end)
@@ -72,7 +72,7 @@ void report_published(const dds::Publisher& publisher, const dds::Published& don
         print_warning(fmt::format("{} frames were not taken by the network.", publisher.refused()));
 }
 
-/// Everything that runs while a rack is published.
+/// Rack, publisher and settings of one publication.
 struct Run {
     const PublishOptions& options;
     rack::Rack& rack;

@@ -85,7 +85,7 @@ void run_for(Show& show, Duration time) {
     }
 }
 
-/// A valid program and the files that it was read from.
+/// Text of a program and the settings to read it with.
 struct ReadProgram {
     ProgramText text;
     control::gcode::Settings reading;

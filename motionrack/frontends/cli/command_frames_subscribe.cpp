@@ -141,7 +141,7 @@ int ending(const SubscribeOptions& options, const dds::FrameValidator& judge, bo
     return exit_done;
 }
 
-/// Returns the time until the next check, even if no frame arrives.
+/// Returns the maximum wait for a frame: until the last one becomes stale, at most 50 ms.
 Duration until_stale(const dds::FrameValidator& judge, Instant now) {
     static constexpr Duration at_most = milliseconds(50);
     if (!judge.joined() || judge.stale()) return at_most;

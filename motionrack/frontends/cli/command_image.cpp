@@ -39,7 +39,7 @@ Bytes bytes_of(std::string_view text) {
 
 // ---- make
 
-/// "reversed", "x2", "index_low", "filter=3".
+/// Returns the word MODE after applying a word of the user: "reversed", "x2", "index_low", "filter=3".
 Result<std::uint16_t> with_word(std::uint16_t mode, std::string_view word) {
     if (word == "reversed") return io::mode::REVERSED.set(mode, 1);
     if (word == "index_low") return io::mode::INDEX_LOW.set(mode, 1);

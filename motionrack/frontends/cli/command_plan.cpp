@@ -61,7 +61,7 @@ Planned by_trapezoids(const std::vector<Move>& moves, const control::MachineLimi
     return {sum.seconds, sum.stops, 0, {}};
 }
 
-/// Sampling interval; also samples the ends of sections.
+/// Sampling interval of a plan; the ends of its sections are sampled, too.
 constexpr double look_every_s = 0.001;
 
 Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimits& limits, const control::Point& start,

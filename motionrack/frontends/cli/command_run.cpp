@@ -58,7 +58,7 @@ int read_request(const RunOptions& options, rack::JobRequest& request) {
     return exit_done;
 }
 
-/// Stores called subprograms with the program, for the run and for recordings.
+/// Wraps the loader of subprograms: the text of each loaded subprogram is stored in `kept`, for runs and recordings.
 void keep_subprograms(control::gcode::Settings& settings, std::map<std::string, std::string>& kept) {
     if (!settings.subprogram) return;
     settings.subprogram = [load = settings.subprogram, &kept](const std::string& name) -> Result<std::string> {
@@ -68,7 +68,7 @@ void keep_subprograms(control::gcode::Settings& settings, std::map<std::string, 
     };
 }
 
-/// `whole`: all files written during the run are complete.
+/// Writes the results and prints the names of all written files. `whole`: those written during the run are complete.
 int write_results(const rack::RecordedJob& job, const RunOptions& options, bool whole) {
     std::vector<std::string> written;
     const int code = write_results(job.report(), options.files, written);

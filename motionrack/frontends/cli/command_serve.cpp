@@ -1,4 +1,4 @@
-// serve: a running rack that is operated in a browser.
+// serve: runs a rack that users operate in a browser.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,7 +76,7 @@ class Serving {
         settings.version = MOTIONRACK_VERSION;
         settings.boot = auth::random_token().substr(0, 8);
         settings.door = door_settings();
-        // A journal behind a link is written in place, because it is never replaced.
+        // Resolves links: a journal is written in place, never replaced, so it may lie behind a link.
         std::error_code none;
         const std::string journal =
             options_.journal.empty() ? std::string() : fs::weakly_canonical(options_.journal, none).string();
@@ -148,21 +148,21 @@ class Serving {
 
     void write_line(std::string line) { output_.write_line(std::move(line)); }
 
-    /// Called repeatedly on the motion thread.
+    /// Stops the axes after a signal; called repeatedly on the motion thread.
     void stop_if_asked() {
         warn_of_lost_records();
         if (!stop_asked || stopping_) return;
         stopping_ = true;
         write_line("Stopping the axes.");
         notify_service_manager("STOPPING=1");
-        // A stopped clock would never reach standstill.
+        // With a paused clock the axes would never reach standstill.
         operate::ClockPacer& pacer = served_->pacer();
         if (pacer.mode() != operate::ClockMode::unthrottled)
             (void)pacer.set(operate::ClockMode::real, std::max(1.0, pacer.factor()));
         served_->machine().quit();
     }
 
-    /// The page shows an alarm; this warning goes to the service log.
+    /// Warns once in the service log if the journal cannot be written; the page shows an alarm.
     void warn_of_lost_records() {
         if (!journal_ || warned_ || journal_->failure().empty()) return;
         warned_ = true;

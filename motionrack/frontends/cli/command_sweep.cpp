@@ -28,7 +28,7 @@ struct SweepOptions {
     bool fresh = false, quiet = false;
 };
 
-/// The sweep with the files it names, which lie beside it; empty after a reported error.
+/// A sweep and the paths of its sweep file and of all files that it names. Without a sweep after a reported error.
 struct Loaded {
     std::optional<sweep::Sweep> sweep;
     std::vector<std::string> inputs;

@@ -37,7 +37,7 @@ void ConsoleOutput::write_line(std::string line) {
     queue_->changed.notify_all();
 }
 
-/// Bypasses stdio, whose lock a blocked reader would hold.
+/// Prints queued lines with write(2): stdio would hold its lock while a reader blocks.
 void ConsoleOutput::print(Queue& queue) {
     std::unique_lock<std::mutex> guard(queue.lock);
     for (;;) {

@@ -46,7 +46,7 @@ double milliseconds_of(Duration d) {
     return static_cast<double>(d.count()) * 1e-7;
 }
 
-/// The sources of an event are untrusted: invalid UTF-8 is replaced.
+/// Returns JSON as text. Replaces invalid UTF-8, because the sources of events are untrusted.
 std::string text_of(const ordered_json& json) {
     return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

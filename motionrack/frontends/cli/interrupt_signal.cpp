@@ -4,7 +4,7 @@
 
 namespace motionrack::cli {
 
-// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal finds nothing else
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal handler has no argument for it
 std::atomic<bool> stop_asked{false};
 
 void stop_on_signals() {

@@ -7,7 +7,7 @@
 namespace motionrack::cli {
 
 /// Set by the first signal after stop_on_signals().
-// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal finds nothing else
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal handler has no argument for it
 extern std::atomic<bool> stop_asked;
 
 /// From now on Ctrl-C, SIGTERM and SIGHUP set stop_asked. A SIGHUP that was ignored at the start (nohup) stays ignored.

@@ -71,7 +71,7 @@ const std::terminate_handler terminate_before = std::get_terminate();
     std::abort();
 }
 
-/// Names the present options for former ones, on a command line that was refused. Returns false if it has none.
+/// Prints the present names of renamed options on a rejected command line. Returns false if it has none.
 bool name_renamed_options(int argc, char** argv) {
     static constexpr std::array<std::pair<std::string_view, std::string_view>, 8> renamed = {
         {{"--speed", "--time-scale"},

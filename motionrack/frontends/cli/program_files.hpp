@@ -41,7 +41,7 @@ struct ReadingOptions {
     std::string tools;  ///< path of a tool table; empty: no table
     bool block_delete = false;
 };
-/// `tools`: name of the option.
+/// Adds these options to a command. `tools`: name of the option for the tool table.
 void add_reading_options(CLI::App& command, ReadingOptions& options, const char* tools = "--tools");
 
 /// Settings for reading a program: the axes of the rack, and the subprograms beside the file as name.ngc. Standard

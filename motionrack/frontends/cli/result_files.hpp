@@ -7,7 +7,7 @@
 
 namespace motionrack::cli {
 
-/// An empty path skips that output.
+/// Paths of the output files; an empty path skips that output.
 struct ResultFiles {
     std::string report = "report.html", csv, events;
     bool no_report = false;

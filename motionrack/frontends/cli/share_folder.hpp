@@ -6,13 +6,13 @@
 
 namespace motionrack::cli {
 
-/// PREFIX/share/motionrack of a program that is PREFIX/bin/motionrack; empty where the program's own path is unknown.
+/// Returns PREFIX/share/motionrack for the program PREFIX/bin/motionrack; empty if the program's own path is unknown.
 std::filesystem::path share_folder();
 
-/// Whether a folder has an index.html: a page of the panel, or the site of the documentation.
+/// Returns true if a folder has an index.html: a page of the panel, or the site of the documentation.
 bool has_index(const std::filesystem::path& folder);
 
-/// Documentation for the panel's help: the installed site, or one page that says how to get it.
+/// Returns the documentation for the panel's help: the installed site, or one page that says how to get it.
 server::Page docs_for_panel();
 
 }  // namespace motionrack::cli

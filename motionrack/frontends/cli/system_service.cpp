@@ -1,4 +1,4 @@
-// sd_notify(3) sends one datagram, which does not need the library.
+// Sends the datagram of sd_notify(3) without libsystemd.
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
