@@ -1,5 +1,5 @@
-// The time in which a stop is answered, also beside a flood, judged by a reference of the same moments: a connection to
-// a thread that only answers. On a busy computer both take longer; a STOP that waits behind the flood does so alone.
+// Measures the time in which a stop is answered, also under a flood of requests, and compares it with a reference: a
+// connection to a thread that only answers. A busy computer delays both; requests queued before a STOP delay it alone.
 #pragma once
 
 #include <arpa/inet.h>
@@ -22,7 +22,7 @@
 
 namespace motionrack::test {
 
-/// Answers each connection to its port of loopback with a byte, and does nothing else.
+/// Answers each connection to its loopback port with a byte, and does nothing else.
 class ReferenceServer {
   public:
     ReferenceServer() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -65,7 +65,7 @@ class ReferenceServer {
     std::thread thread_;
 };
 
-/// How long the threads of a process have run, and have waited for a processor, as the kernel counts it.
+/// Seconds for which the threads of a process have run and have waited for a processor, as the kernel counts them.
 struct ProcessorTime {
     double ran = 0, waited = 0;  ///< s
 
@@ -86,10 +86,10 @@ class AnswerDelays {
   public:
     using Milliseconds = std::chrono::duration<double, std::milli>;
     static constexpr Milliseconds promised{50};
-    /// `server`: the process that answers, if it is another one. If other programs leave its threads less than all the
-    /// time that they want to run, down to a quarter, all takes as much longer.
+    /// `server`: the process that answers, if it is not this one. If its threads get only a part of the processor time
+    /// that they need, the 50 ms are divided by that part (at least a quarter).
     explicit AnswerDelays(pid_t server = 0) : server_(server) {}
-    /// A stop is several steps of several threads; the computer may delay each as much as the whole reference.
+    /// Number of steps of several threads in a stop; the computer may delay each by the time of the whole reference.
     static constexpr double steps = 20;
 
     /// Measures `stop`, and the reference right afterwards.
@@ -108,9 +108,9 @@ class AnswerDelays {
     }
     std::size_t count() const { return stops_.size(); }
 
-    /// Expects this part of the stops to be answered within 50 ms, or within what the computer explains.
-    /// `busy_threads`: threads of this program that always have work, as a flood and the server of its connections. If
-    /// other programs leave them less than a processor each, down to a quarter, all takes as much longer.
+    /// Expects this part of the stops to be answered within 50 ms, or within `steps` times the reference if longer.
+    /// `busy_threads`: threads of this program that always have work, such as a flood and the server of its
+    /// connections. If they get only a part of a processor each, the 50 ms are divided by it (at least a quarter).
     void expect_in_time(double part, const std::string& name, int busy_threads = 0) const {
         const Milliseconds stop = within(stops_, part), reference = within(references_, part);
         const double wanted = server_ == 0 ? wall_ * busy_threads : used_.ran + used_.waited,
@@ -139,7 +139,7 @@ class AnswerDelays {
     ReferenceServer reference_;
     const pid_t server_;
     ProcessorTime used_;
-    double cpu_ = 0, wall_ = 0;  ///< s of all threads, and of the stops
+    double cpu_ = 0, wall_ = 0;  ///< s: processor time of this program, and duration of the stops
     std::vector<Milliseconds> stops_, references_;
 };
 

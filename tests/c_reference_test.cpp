@@ -23,7 +23,7 @@ std::string contents(const fs::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Converts a header to Markdown: sections are headings, each declaration a block of code with its comment below.
+/// Converts a header to Markdown: sections become headings, each declaration a block of code with its comment below.
 class Page {
   public:
     /// `title`: first lines; `api`: the macro before each function.

@@ -17,7 +17,7 @@ std::string page() {
     return text_of(source_root / "docs/howto/homing.md");
 }
 
-/// Homes X with type 4 and tells what was found.
+/// Homes X with type 4 and returns the result as a sentence.
 Result<std::string> one_axis(mcx314::Driver& card) {
     mcx314::HomeSettings s;
     s.type = 4;                        // the switch, again slowly, then the index
@@ -29,7 +29,7 @@ Result<std::string> one_axis(mcx314::Driver& card) {
     return fmt::format("{} pulses from the switch to the index; {}", *report.switch_to_index(), report.sentence);
 }
 
-/// Homes X and Y at once, from a loop of one's own.
+/// Homes X and Y at the same time in a loop of the caller.
 Result<void> two_axes(mcx314::Driver& card, const mcx314::HomeSettings& s) {
     Interrupt& host = card.interrupt();
     mcx314::Home x(card, 0), y(card, 1);
@@ -44,7 +44,7 @@ Result<void> two_axes(mcx314::Driver& card, const mcx314::HomeSettings& s) {
     return y.report().result();
 }
 
-/// Jogs X for as long as `pressed` says so.
+/// Jogs X while `pressed` returns true.
 Result<void> jog(mcx314::Driver& card, const std::function<bool()>& pressed) {
     Interrupt& host = card.interrupt();
     mcx314::Manual panel(card, 0);

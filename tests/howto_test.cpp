@@ -105,7 +105,8 @@ std::string databoard_page(const std::string& name) {
     return text_of(source_root / "docs/howto/databoard4002" / (name + ".md"));
 }
 
-/// Runs `program` with the name of a picture that it makes; expects its output and that picture on the page.
+/// Runs `program` with the path of a picture that it writes. Expects on the page that picture and the output of
+/// `printer`, or of `program` if `printer` is empty.
 void shows(const std::string& name, const std::string& program, const std::string& printer) {
     const std::string page = databoard_page(name);
     ASSERT_FALSE(page.empty());

@@ -1,7 +1,7 @@
-// Known breaches of the limits of axes, from the one list that has them.
+// Known breaches of the limits of axes, read from tests/known_breaches.txt.
 //
-//   known_breaches.txt ──known_breaches("trapezoid")──► LimitFactors ──► the judges of a run
-//   the judges ──reached("trapezoid", ..)──► a line for each row that was used, at the end of the test program
+//   known_breaches.txt ──known_breaches("trapezoid")──► LimitFactors ──► the checks of a run
+//   the checks ──reached("trapezoid", ..)──► a line for each row that was used, at the end of the test program
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@
 
 namespace motionrack::test {
 
-/// The factors that the list has for these runs. A test that names runs without a row fails.
+/// Returns the factors of the list for these runs; makes the test fail if the list has no row for them.
 inline LimitFactors known_breaches(std::string_view runs) {
     std::ifstream list(source_root / "tests/known_breaches.txt");
     LimitFactors out;
@@ -35,12 +35,12 @@ inline LimitFactors known_breaches(std::string_view runs) {
     return out;
 }
 
-/// Of two kinds of runs at once.
+/// Returns the larger of each factor.
 inline LimitFactors larger_of(const LimitFactors& one, const LimitFactors& other) {
     return {std::max(one.max_accel, other.max_accel), std::max(one.max_velocity_step, other.max_velocity_step)};
 }
 
-/// The largest factors that the runs of this program reached. Prints them at its end, beside those of the list.
+/// Largest factors that the runs of this program reached; prints them at its end, with those of the list.
 class ReachedFactors final : public testing::Environment {
   public:
     void add(std::string_view runs, const LimitFactors& reached) {
@@ -57,7 +57,7 @@ class ReachedFactors final : public testing::Environment {
                 stdout);
         }
     }
-    /// That of this program, which GoogleTest owns.
+    /// Returns the object of this program, which GoogleTest owns.
     static ReachedFactors& of_program() {
         static auto* const own = new ReachedFactors;
         static const testing::Environment* const added = testing::AddGlobalTestEnvironment(own);

@@ -230,7 +230,7 @@ TEST_F(MarkCommand, ShowsItsProgressAndWritesNothingWhenStopped) {
           "[drawing]\ntext = 'AAAAAAAAAAAAAAAAAAAAAAAA'\n[pace]\nmark_speed_mm_s = 0.4\n[belt]\nvelocity_mm_s = "
           "0.02\n[fly]\nmode "
           "= 'encoder'\n[galvo]\nideal_mirrors = false\n");
-    // A separate terminal, which shows progress, and Ctrl-C once it has appeared.
+    // Runs the command in a separate terminal and sends Ctrl-C once progress is shown.
     const Ran ran = shell(
         "{ for i in $(seq 3000); do grep -qs ' %  marking' seen && break; sleep 0.02; done; printf '\\003'; } | "
         "script -qefc '" MOTIONRACK_PROGRAM " mark long.toml --report r.html' seen > /dev/null");

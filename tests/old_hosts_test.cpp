@@ -25,7 +25,7 @@ class OldHosts : public InFolder {
         write(name, listing);
         return shell(command + " " + name);
     }
-    /// Runs the script `run` of an example, as where its packages are installed and its program is built; its messages
+    /// Runs the script `run` of an example with stubs that install and build nothing; its messages
     /// are in the file errors.
     Ran by_script(const std::string& host, const std::string& program, const std::string& arguments) const {
         const std::string built = "tree/build/release/examples/" + host;

@@ -25,7 +25,6 @@ TEST_F(PlanCommand, PageShowsTheOutputOfTheCommand) {
 
 /// For each shape: the row of the page equals the plan, no axis exceeds its limits, and exact stops would not be
 /// faster.
-/// stops.
 TEST_F(PlanCommand, KeepsTheLimitsOfTheShapesOfItsPage) {
     const std::string page = text_of(source_root / "docs/howto/plan.md");
     int shapes = 0;

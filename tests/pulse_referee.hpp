@@ -1,4 +1,4 @@
-// Judges a motion only by the instants of the pulses on the wires of an axis.
+// Finds velocity steps of a motion from the instants of the pulses on the wires of an axis alone.
 //
 //   pulses   | | | ||||||||||||     |     n(t, t + w) - n(t - w, t): change of the velocity from one window of w to the
 //            [--- w ---][--- w ---]        next; the part beyond the acceleration limit and the two pulses of counting

@@ -44,7 +44,7 @@ class RecordedRun : public InFolder {
   protected:
     std::string at(const std::string& name) const { return (folder / name).string(); }
 
-    /// Runs it; stops at `stop_s` of its time as Ctrl-C does.
+    /// Runs a job and records it; from `stop_s` of simulated time on, stops it as Ctrl-C does (-1: not at all).
     JobOutcome record(const JobRequest& request, const std::string& name, double stop_s = -1) const {
         auto job = RecordedJob::create(request, {name.empty() ? std::string() : at(name), {}});
         EXPECT_TRUE(job) << job.error().text();

@@ -1,5 +1,4 @@
-// Commands that cannot be intended: each answer has an explanation, takes little of the processor's time, and nothing
-// moves.
+// Commands with nonsensical arguments are rejected with an explanation and little processor time, and nothing moves.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
@@ -13,7 +12,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// Time of the processor that all ended commands took.
+/// Returns the processor time that all ended commands used, s.
 double processor_seconds() {
     const auto seconds = [](const timeval& time) {
         return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
@@ -25,7 +24,7 @@ double processor_seconds() {
 
 class RefusedCommand : public InFolder {
   protected:
-    /// Expects that the program took less than a second of the processor, which is dozens of times what it needs.
+    /// Expects the command to use less than a second of processor time, which is dozens of times its need.
     Ran refused(const std::string& arguments) const {
         const double before = processor_seconds();
         Ran ran = motionrack(arguments);

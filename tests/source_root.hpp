@@ -1,4 +1,4 @@
-// Where the tests find pages, examples and sources.
+// Path of the source tree, in which the tests find pages, examples and sources.
 #pragma once
 
 #include <filesystem>

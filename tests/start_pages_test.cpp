@@ -27,8 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 constexpr int max_lines = 120, min_commands = 3;
 
-/// Commands of a block, and the text that bash -v prints: each command as it is read, without "$ ", then its output.
-/// A command goes on after a backslash at the end of a line.
+/// Commands of a block, and the text that bash -v prints: each command as it is read, without "$ ", then its output. A
+/// backslash at the end of a line continues the command on the next line.
 struct Transcript {
     std::string commands, printed;
     int count = 0;
@@ -48,9 +48,8 @@ Transcript transcript_of(const std::string& block) {
     return out;
 }
 
-/// Links to the files of the source tree, without the products of builds; copies of the examples, as their scripts go
-/// up from where they lie; the programs of this build; and in the place of the scripts that install and build,
-/// functions that do neither.
+/// A tree like a fresh clone: links to the source files, copies of the examples (their scripts find the tree by their
+/// own path), the programs of this build, and functions that install and build nothing in place of the scripts that do.
 class StartPage : public testing::TestWithParam<const char*> {
   protected:
     void SetUp() override {
@@ -70,7 +69,8 @@ class StartPage : public testing::TestWithParam<const char*> {
     }
     void TearDown() override { fs::remove_all(clone); }
 
-    /// A block with the name of a file behind its language is that file, or a part of the tree's file of that name.
+    /// Expects a block with a file name after its language to be a part of that file of the tree. Writes the file if
+    /// the tree has none.
     void expect_file(const FencedBlock& block, const std::string& name) const {
         if (fs::exists(source_root / name))
             EXPECT_NE(text_of(source_root / name).find(block.text), std::string::npos) << name << "\n" << block.text;

@@ -15,8 +15,9 @@ struct StrictVcd {
     struct Variable {
         std::string name;  ///< with its scopes: "X.X_step"
         bool is_real = false;
-        std::int64_t rises = 0;           ///< edges of a wire from 0 to 1
-        std::int64_t rises_at_start = 0;  ///< those at the first time: readers that sample see the level after them
+        std::int64_t rises = 0;  ///< edges of a wire from 0 to 1
+        std::int64_t rises_at_start =
+            0;  ///< those at the first time; readers that take samples see only the level after them
         char level = 'x';
         double number = 0;
         std::int64_t changes = 0;

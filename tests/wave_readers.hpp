@@ -1,4 +1,4 @@
-// Reads VCD files by independent software, and compares the edges found: sigrok-cli, vcd2fst and the strict reader.
+// Reads VCD files with sigrok-cli, vcd2fst and the strict reader, and compares the edges they find.
 #pragma once
 
 #include <gtest/gtest.h>

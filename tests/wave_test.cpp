@@ -89,7 +89,7 @@ void position(Session& session) {
 
 void stand(Session&) {}
 
-/// A belt and a stage move by themselves. An edge of the belt at the last instant would be behind sigrok's last sample.
+/// Advances 1 ms: a belt and a stage move by themselves. sigrok misses an edge of the belt at the last instant.
 void look_on(Session& session) {
     EXPECT_TRUE(session.advance(1'000'000));
 }

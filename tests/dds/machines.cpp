@@ -1,4 +1,4 @@
-// Namespaces held by a process each, joined by virtual cables.
+// Makes network namespaces, each held by a process, and joins them by virtual cables (veth).
 #include <fcntl.h>
 #include <poll.h>
 #include <sched.h>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr int own_network = -1;
 
-/// This process' child dies with it, however it ends.
+/// Makes the kernel kill this process when its parent ends for any reason.
 void die_with_parent() {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
 }
@@ -41,7 +41,7 @@ bool enter(pid_t holder, const char* space) {
     ::_exit(127);
 }
 
-/// A network of our own: as root, or as root of a user namespace of our own where that is allowed.
+/// Moves this process to a new network namespace: as root, or as root of a new user namespace if that is permitted.
 bool leave_the_network() {
     if (::unshare(CLONE_NEWNET | CLONE_NEWUTS) == 0) return true;
     const std::string user = "0 " + std::to_string(::getuid()) + " 1", group = "0 " + std::to_string(::getgid()) + " 1";
@@ -152,7 +152,7 @@ void Machines::set_link(int machine, bool up) {
 
 bool Machines::begin_loss(int machine) {
     const std::string port = "p" + std::to_string(machine);
-    // Where the kernel has no netem, a narrow link loses what does not fit through.
+    // Loses a quarter of the packets; if the kernel has no netem, limits the rate, so that the excess is lost.
     return run(own_network, {"tc", "qdisc", "add", "dev", port, "root", "netem", "loss", "25%"}) ||
            run(own_network,
                {"tc", "qdisc", "add", "dev", port, "root", "tbf", "rate", "300kbit", "burst", "3000", "limit", "3000"});
@@ -189,7 +189,7 @@ std::string Child::said() const {
     return said_.size() > 2000 ? "..." + said_.substr(said_.size() - 2000) : said_;
 }
 
-/// Reads the next line; false at the end, or where none comes for a minute.
+/// Reads the next line. Returns false at the end of the output, or after a minute without a line.
 bool Child::read_line() {
     static constexpr int a_minute = 60'000;
     for (;;) {

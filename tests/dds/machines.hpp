@@ -5,7 +5,7 @@
 //      |            |            |
 //      p0 -------- br0 --------- p2            the test's own network
 //
-// None of it has a name that anyone else sees, and all of it is gone when the test's process is, however that ends.
+// Other processes do not see these networks, and the kernel removes them when the test's process ends for any reason.
 #pragma once
 
 #include <sys/types.h>
@@ -20,7 +20,7 @@ namespace motionrack::dds_test {
 
 using Command = std::vector<std::string>;
 
-/// A program that runs on a machine; its standard output is lines of JSON. It is killed when this goes.
+/// A program on a machine; its standard output is lines of JSON. It is killed on destruction.
 class Child {
   public:
     Child(pid_t process, int output) : process_(process), output_(output) {}
@@ -30,18 +30,18 @@ class Child {
     Child(Child&& other) noexcept;
     Child& operator=(Child&&) = delete;
 
-    /// Reads until a line fulfils `condition`; false if the program ends first or nothing of the kind comes for a
-    /// minute.
+    /// Reads until a line fulfils `condition`. Returns false if the program ends first or prints no line for a minute.
     using Condition = std::function<bool(const nlohmann::json&)>;
     bool wait_for(const Condition& condition);
-    /// As wait_for, until an event of this kind; true at once if its line was read before. It is the last line then.
+    /// As wait_for, for an event of this kind; returns true at once if such a line was read before, and makes it
+    /// last().
     bool wait_for_event(const std::string& kind);
-    /// Reads to its end; the exit code, or -1 if a signal ended it.
+    /// Reads until the program ends. Returns its exit code, or -1 if a signal ended it.
     int finish();
     void send(int signal);
-    /// Whether an event of this kind was among the lines that were read.
+    /// Returns true if an event of this kind was among the lines read.
     bool reported(const std::string& kind) const { return events_.count(kind) != 0; }
-    /// The last lines that were read, for a message.
+    /// Returns the last lines read, for a message.
     std::string said() const;
     const nlohmann::json& last() const { return last_; }
 
@@ -54,12 +54,12 @@ class Child {
     std::map<std::string, nlohmann::json> events_;  ///< the last line of each kind
 };
 
-/// Whether a line tells of an event of this kind.
+/// Returns a condition for wait_for: the line reports an event of this kind.
 Child::Condition is_event(const std::string& kind);
 
 class Machines {
   public:
-    /// Makes `count` machines; why_not() tells if that is not permitted here.
+    /// Makes `count` machines; if that is not permitted here, why_not() has the reason.
     explicit Machines(int count);
     ~Machines();
     Machines(const Machines&) = delete;
@@ -67,9 +67,9 @@ class Machines {
 
     const std::string& why_not() const { return why_not_; }
     Child start(int machine, const Command& command);
-    /// Takes the cable of a machine off, and plugs it in again.
+    /// Connects or disconnects the cable of a machine.
     void set_link(int machine, bool up);
-    /// Lets packets to a machine get lost. False: this kernel has no means to do so.
+    /// Makes packets to a machine get lost. Returns false if this kernel cannot do so.
     bool begin_loss(int machine);
     void end_loss(int machine);
 

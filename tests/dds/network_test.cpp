@@ -1,4 +1,4 @@
-// Publishers and listeners on several machines, and what networks do to them.
+// Publishers and subscribers on several machines, with lost packets, disconnected cables and conflicts.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -27,7 +27,7 @@ struct Row {
     std::vector<std::int64_t> counts;
 };
 
-/// Machines and a folder for what subscribers write; both go with the test.
+/// Six machines and a folder for the files of subscribers; both are removed after the test.
 class Network : public testing::Test {
   protected:
     void SetUp() override {
@@ -44,7 +44,7 @@ class Network : public testing::Test {
         return network_->start(machine, {MOTIONRACK_TEST_PUBLISHER, "good", "stage", std::to_string(period_us_),
                                          std::to_string(scales), std::to_string(offset)});
     }
-    /// Listens with its frames in `name`.csv.
+    /// Starts a subscriber that writes its frames to `name`.csv and ends after `count` frames (0: never).
     Child subscribe(int machine, const std::string& name, int count = 0) {
         Command command = {MOTIONRACK_PROGRAM, "frames",     "subscribe", "--bus", "stage",
                            "--json",           "--interval", "0.02",      "--csv", file(name)};
@@ -68,7 +68,8 @@ class Network : public testing::Test {
         }
         return out;
     }
-    /// Every row is what the publisher latched; the offset of its positions.
+    /// Checks that all rows have the positions of one publisher; returns the offset of these positions, -1 without
+    /// rows.
     std::int64_t check_rows(const std::vector<Row>& rows) {
         std::set<std::int64_t> offsets;
         for (const Row& row : rows) {
@@ -84,7 +85,7 @@ class Network : public testing::Test {
     int period_us_ = 2000;
 };
 
-/// So many frames a second.
+/// Parameter: frames per second.
 class NetworkAt : public Network, public testing::WithParamInterface<int> {
   protected:
     NetworkAt() { period_us_ = 1'000'000 / GetParam(); }
@@ -207,7 +208,7 @@ TEST_P(NetworkAt, EverySubscriberAndBothPublishersReportTwoOnOneBus) {
     }
     EXPECT_TRUE(first.wait_for_event("conflict")) << first.said();
     EXPECT_EQ(first.last()["other"], second_id);
-    // Its conflict may come before the line that says its id.
+    // The event of its conflict may be printed before the line with its id.
     EXPECT_TRUE(second.wait_for_event("conflict")) << second.said();
     EXPECT_EQ(second.last()["other"], first_id);
     second.send(SIGKILL);

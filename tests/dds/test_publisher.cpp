@@ -1,10 +1,10 @@
-// A publisher for tests, whose positions tell the number of their frame:
+// A publisher for tests, whose positions contain the number of their frame:
 //
 //   dds_test_publisher good BUS PERIOD_US SCALES OFFSET   frames, each at its time: count k of frame n is
 //                                                         OFFSET + 1000 n + k
-//   dds_test_publisher bad BUS                            samples that nobody may use, of each kind in turn
+//   dds_test_publisher bad BUS                            invalid samples, one of each kind in turn
 //
-// Prints what it notices, and that it publishes, as lines of JSON; runs until it is killed.
+// Prints its events and the number of sent frames as lines of JSON; runs until it is killed.
 #include <cstdio>
 #include <cstdlib>
 #include <motionrack/dds/clock.hpp>
@@ -68,7 +68,7 @@ int publish_good(const std::string& bus, Duration period, std::uint32_t scales, 
     return done ? 0 : wrong(done.error().text());
 }
 
-/// A good sample, but for what the kind says.
+/// Returns a sample with one error, selected by the number.
 dds::Sample bad_sample(const dds::PublisherIdentity& source, std::uint32_t number) {
     dds::Sample sample;
     sample.source = source;

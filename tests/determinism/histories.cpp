@@ -1,4 +1,4 @@
-// Running what the hashes are of.
+// Runs programs and racks and returns the hashes of their event traces.
 #include <fmt/format.h>
 
 #include <motionrack/rack/job.hpp>
@@ -22,7 +22,7 @@ struct History {
     Duration time{};
 };
 
-/// The rack with a program, to its end.
+/// Runs a program on a rack to its end.
 History run(const rack::RackConfig& config, const std::string& program) {
     rack::Rack rack(config);
     rack::JobSettings settings;
@@ -34,7 +34,7 @@ History run(const rack::RackConfig& config, const std::string& program) {
     return {rack.kernel().state_hash(), outcome.trace_hash, outcome.time};
 }
 
-/// The rack by itself, for half a second.
+/// Runs a rack without a program for half a second.
 History run(const std::filesystem::path& file) {
     auto session = rack::Session::open(file.string());
     if (!session) throw std::runtime_error(session.error().text());
@@ -59,7 +59,7 @@ std::string example_histories(const std::filesystem::path& root) {
 std::string rack_histories(const std::filesystem::path& root) {
     struct Run {
         const char* rack;
-        const char* program;  ///< empty: it runs by itself
+        const char* program;  ///< empty: the rack runs without a program
     };
     std::string out;
     for (const Run& one :

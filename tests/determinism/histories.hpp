@@ -1,4 +1,4 @@
-// What every build must give bit for bit: the histories of the examples' programs and of the example racks.
+// Event traces that every build must reproduce bit for bit: those of the example programs and of the example racks.
 #pragma once
 
 #include <filesystem>
@@ -6,11 +6,12 @@
 
 namespace motionrack {
 
-/// The numbered examples' programs on the router, a line each: name, hash of the history, ticks of 100 ps that it took.
+/// Runs the programs of the numbered examples on the router. Returns a line for each: name, hash of the event trace,
+/// duration in ticks of 100 ps.
 std::string example_histories(const std::filesystem::path& root);
 
-/// The example racks, each with its program or by itself for half a second, a line each: name, hash of its state with
-/// all places, velocities and counts, hash of its history, ticks that it took.
+/// Runs the example racks, each with its program or without one for half a second. Returns a line for each: name, hash
+/// of its state with all positions, velocities and counts, hash of its event trace, duration in ticks of 100 ps.
 std::string rack_histories(const std::filesystem::path& root);
 
 }  // namespace motionrack

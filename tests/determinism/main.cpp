@@ -1,4 +1,5 @@
-// determinism_histories FOLDER: prints the histories of the project in FOLDER, as every build must give them.
+// determinism_histories FOLDER: prints the hashes of the event traces of the examples in FOLDER, which every build must
+// reproduce.
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -1,13 +1,13 @@
-/* A disk whose nth call fails, between a program and its files: loaded in front of the C library (LD_PRELOAD).
+/* Simulates a disk whose nth call fails: replaces file functions of the C library in a program (LD_PRELOAD).
 
-   MOTIONRACK_BAD_FOLDER  only files in it are meant
-   MOTIONRACK_BAD_CALL    "fail 12", "tear 12", "drop 12": what becomes of the 12th call; without it all go through
-   MOTIONRACK_BAD_WHILE   while this file is there, every call that changes files fails: a full disk
-   MOTIONRACK_BAD_COUNT   file that says, when the program ends, how many calls there were
+   MOTIONRACK_BAD_FOLDER  only calls on files in this folder are counted and can fail
+   MOTIONRACK_BAD_CALL    "fail 12", "tear 12", "drop 12": fault of the 12th call; without it no call fails
+   MOTIONRACK_BAD_WHILE   while this file exists, every call that changes files fails: a full disk
+   MOTIONRACK_BAD_COUNT   file that receives the number of calls when the program ends
 
-   Calls: open for writing, write, writev, pwrite, read, pread, ftruncate, fsync, fdatasync, rename. `fail`: nothing is
-   done and an error comes back; `tear`: half is written and an error comes back, or half of what was asked for is read,
-   which is no error; `drop`: nothing is done and success comes back, of a call that changes files. */
+   Calls: open for writing, write, writev, pwrite, read, pread, ftruncate, fsync, fdatasync, rename. `fail`: the call
+   does nothing and returns an error. `tear`: a write stores half of the bytes and returns an error; a read returns half
+   of the requested bytes without an error. `drop`: a call that changes files does nothing and returns success. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -57,7 +57,7 @@ static enum fault next_call(int changes) {
     return atomic_fetch_add(&calls, 1) + 1 == nth ? fault : none;
 }
 
-/* What becomes of a call on an open file. */
+/* Returns the fault of a call on an open file, and counts the call. */
 static enum fault on_file(int file, int changes) {
     char link[64], path[4096];
     snprintf(link, sizeof link, "/proc/self/fd/%d", file);
@@ -66,7 +66,7 @@ static enum fault on_file(int file, int changes) {
     path[size] = '\0';
     if (!is_meant(path)) return none;
     const enum fault what = next_call(changes);
-    /* What the processes that have a journal open share in their memory is on no disk. */
+    /* The -shm file of a journal is memory shared by processes, so a disk cannot lose its content. */
     return what == drop && size > 4 && strcmp(path + size - 4, "-shm") == 0 ? none : what;
 }
 
@@ -105,7 +105,7 @@ ssize_t pwrite(int file, const void* bytes, size_t count, off_t at) {
     return pwrite64(file, bytes, count, at);
 }
 
-/* The C++ library writes a long text together with what it has kept. */
+/* The C++ library uses writev to write a long text together with its buffer. */
 ssize_t writev(int file, const struct iovec* parts, int count) {
     size_t size = 0;
     for (int i = 0; i < count; ++i) size += parts[i].iov_len;
@@ -124,7 +124,7 @@ ssize_t writev(int file, const struct iovec* parts, int count) {
     return -1;
 }
 
-/* A short read is none that fails. */
+/* Returns the number of bytes to read: half of `count` for `tear`. A short read is not an error. */
 static size_t less(enum fault what, size_t count) {
     return what == tear && count > 1 ? count / 2 : count;
 }
@@ -149,7 +149,7 @@ ssize_t pread(int file, void* bytes, size_t count, off_t at) {
 static int open_file(const char* path, int flags, mode_t mode) {
     char whole[4096], cut[4096];
     if ((flags & O_ACCMODE) != O_RDONLY && strlen(path) < sizeof cut) {
-        /* It may not be there: its folder is. */
+        /* The file may not exist yet, so the path of its folder is resolved. */
         strcpy(cut, path);
         char* const slash = strrchr(cut, '/');
         if (slash != NULL) *slash = '\0';
@@ -182,7 +182,7 @@ int open64(const char* path, int flags, ...) {
     return open_file(path, flags | O_LARGEFILE, mode);
 }
 
-/* Of a call that is done whole or not at all. */
+/* Executes a call that cannot be done in part: `tear` acts as `fail`. */
 static int instead(enum fault what, long number, long first, long second) {
     if (what == none) return (int)syscall(number, first, second);
     if (what == drop) return 0;
@@ -196,7 +196,7 @@ int ftruncate64(int file, off64_t size) {
 int ftruncate(int file, off_t size) {
     return ftruncate64(file, size);
 }
-/* No power is lost here: a sync that goes well is none of the real disk's, which would take its time. */
+/* Returns success without a sync of the real disk, which would be slow; these tests simulate no power loss. */
 int fsync(int file) {
     const enum fault what = on_file(file, 1);
     if (what == none || what == drop) return 0;

@@ -1,6 +1,6 @@
-// Every command that writes, on a disk whose nth call fails, is torn or is lost, reads among them: with exit code 0 all
-// results are as they are on a good disk; else a sentence says what is wrong, and under each name stands what stood
-// there before, or the whole result.
+// Every command that writes, on a disk whose nth read or write fails, is torn or is lost. With exit code 0 all results
+// equal those on a good disk. Otherwise an error message has the reason, and each result file is either unchanged or
+// complete.
 #include <gmock/gmock.h>
 
 #include <motionrack/cards/rtc5/model/correction.hpp>
@@ -71,14 +71,14 @@ class FaultyDisk : public InFolder, public testing::WithParamInterface<Scenario>
             ASSERT_EQ(motionrack("run part.ngc -q --no-report --record given.h5").code, 0);
         }
     }
-    /// A job whose optics have the correction file of a lens.
+    /// Writes a marking job whose optics have the correction file of a lens.
     void write_correction() const {
         const auto table = rtc5::correction_of({{255.059, -1.365, 1.493, -18.087}, 11.7, 5184}, 721);
         const std::vector<std::uint8_t> bytes = rtc5::written_ct5(*table);
         write("lens.ct5", std::string(bytes.begin(), bytes.end()));
         write("corrected.toml", "[drawing]\ntext = 'A'\n[optics]\nct5 = 'lens.ct5'\n");
     }
-    /// Runs it in a folder `on` with results of a run before; `plan`: what goes wrong.
+    /// Runs the command in a folder with the results of an earlier run. `plan`: fault of the disk, "fail 12".
     Ran run_on(const std::string& plan) {
         for (const char* result : GetParam().results) write(result, old_text(result));
         fs::remove(folder / "a.csv.part");
@@ -93,18 +93,18 @@ class FaultyDisk : public InFolder, public testing::WithParamInterface<Scenario>
         fs::remove(path);
         return count;
     }
-    /// A table of a sweep is only written over a table of a sweep.
+    /// Returns the earlier content of a result. A sweep overwrites only the table of a sweep, so its file starts empty.
     static std::string old_text(const std::string& result) {
         return std::string(GetParam().command).find("sweep") == 0 && result != "a.svg" ? "" : "old " + result;
     }
-    /// Some of the calls by the seed; with a large MOTIONRACK_CALLS all.
+    /// Selects calls to fail, by the seed; all of them if MOTIONRACK_CALLS is large enough.
     static std::vector<std::int64_t> chosen(std::int64_t calls) {
         std::vector<std::int64_t> out = spread_by_seed(calls, trials("MOTIONRACK_CALLS", 2, 12));
         for (std::int64_t& one : out) one = calls - one;
         return out;
     }
     void check(const Ran& ran, const std::map<std::string, std::string>& good) const {
-        // A recording of which something cannot be read is called damaged.
+        // A recording that cannot be read completely is reported as damaged (exit code 2).
         const bool reads = std::string(GetParam().command).find("given.h5") != std::string::npos;
         EXPECT_TRUE(ran.code == 0 || ran.code == 5 || (reads && ran.code == 2)) << ran.code << ": " << ran.out;
         if (ran.code != 0) {
@@ -118,7 +118,7 @@ class FaultyDisk : public InFolder, public testing::WithParamInterface<Scenario>
                 << ran.code << ": " << ran.out;
         }
     }
-    /// Bytes that are never read may differ, and zeros need not be written.
+    /// Compares the contents of recordings: bytes that are never read may differ, and zeros need not be written.
     bool same_recording(const std::string& result, const std::string& text) const {
         if (!result.ends_with(".h5") || text_of(folder / result).size() < 100) return false;
         write("good.h5", text);

@@ -1,8 +1,8 @@
-// A computer whose nth allocation fails, between a program and the C++ library: loaded in front of it (LD_PRELOAD).
+// Simulates a computer whose nth allocation fails: replaces the allocation functions of a program (LD_PRELOAD).
 //
 //   MOTIONRACK_BAD_NEW        "12": the 12th allocation from main() on fails; "12 on": it and all later ones;
-//                             without it all are done
-//   MOTIONRACK_BAD_NEW_COUNT  file that says, when main() ends, how many there were
+//                             without it none fails
+//   MOTIONRACK_BAD_NEW_COUNT  file that receives the number of allocations when main() ends
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>

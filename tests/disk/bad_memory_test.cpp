@@ -1,5 +1,5 @@
-// Commands on a computer whose nth allocation fails: with exit code 0 the results are as ever; else a sentence says
-// what is missing, and under each name stands what stood there before, or the whole result.
+// Commands on a computer whose nth allocation fails. With exit code 0 the results equal those of a normal run.
+// Otherwise an error message has the reason, and each result file is either unchanged or complete.
 #include <gmock/gmock.h>
 
 #include <motionrack/trace/diff.hpp>
@@ -17,7 +17,7 @@ struct Task {
     std::vector<const char*> results;
 };
 
-/// Before a command begins, all of them allocate the same: this one has that part.
+/// Command with only the allocations that every command makes before it begins.
 const char* const no_command = "--version";
 
 const Task tasks[] = {
@@ -54,7 +54,7 @@ class WithoutMemory : public InFolder, public testing::WithParamInterface<Task> 
                      "' MOTIONRACK_BAD_NEW_COUNT=count LD_PRELOAD=" MOTIONRACK_BAD_MEMORY " " MOTIONRACK_PROGRAM " " +
                      command);
     }
-    /// A table of a sweep is only written over a table of a sweep.
+    /// Returns the earlier content of a result. A sweep overwrites only the table of a sweep, so its file starts empty.
     static std::string old_text(const std::string& result) {
         return std::string(GetParam().command).starts_with("sweep") ? "" : "old " + result;
     }
@@ -63,7 +63,8 @@ class WithoutMemory : public InFolder, public testing::WithParamInterface<Task> 
         EXPECT_EQ(ran.code, 0) << ran.out;
         return std::atoll(text_of(folder / "count").c_str());
     }
-    /// Some of the allocations after the first ones, by the seed; with a large MOTIONRACK_ALLOCATIONS all.
+    /// Selects allocations after number `first` to fail, by the seed; all of them if MOTIONRACK_ALLOCATIONS is large
+    /// enough.
     static std::vector<std::int64_t> chosen(std::int64_t first, std::int64_t calls) {
         std::vector<std::int64_t> out = spread_by_seed(calls - first, trials("MOTIONRACK_ALLOCATIONS", 6, 100));
         for (std::int64_t& one : out) one = calls - one;
@@ -98,7 +99,7 @@ TEST_P(WithoutMemory, ACommandReportsItAndLeavesNothingBroken) {
     ASSERT_GT(count, 100);
     std::map<std::string, std::string> good;
     for (const char* result : GetParam().results) good[result] = text_of(folder / result);
-    // A tenth is left to both: the arguments are read within it.
+    // Skips nine tenths of the common allocations; reading the arguments is in the last tenth.
     const std::int64_t before = GetParam().command == no_command ? 0 : allocations_of(no_command) * 9 / 10;
     ASSERT_LT(before, count);
     for (const std::int64_t nth : chosen(before, count))

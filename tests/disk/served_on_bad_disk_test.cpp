@@ -1,4 +1,4 @@
-// A served rack whose disk fails: an order that is not recorded is not acknowledged, the machine holds, and the next
+// A served rack whose disk fails: a command that is not recorded is not acknowledged, the machine holds, and the next
 // start has no valid position. A pairing that is not written is not acknowledged either.
 #include <gmock/gmock.h>
 
@@ -15,10 +15,11 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// The disk of the programs that are started while it lives.
+/// Makes the disk fail for the programs that are started during its lifetime.
 class BadDiskAhead {
   public:
-    /// `plan`: "fail 12"; `full`: a file: the disk is full while it is there.
+    /// `plan`: "fail 12"; `full`: path of a file, the disk is full while it exists; `count`: receives the number of
+    /// calls.
     BadDiskAhead(const std::string& folder, const std::string& plan, const std::string& full,
                  const std::string& count) {
         ::setenv("MOTIONRACK_BAD_FOLDER", (folder + "/").c_str(), 1);
@@ -56,20 +57,20 @@ class ServedRackOnABadDisk : public InFolder {
     }
     std::int64_t calls() const { return std::atoll(text_of(folder / "count").c_str()); }
     static bool is_done(const json& answer) { return answer.is_object() && answer.contains("done"); }
-    /// While a position is declared nothing begins.
+    /// Starts a program; repeats the command while the machine still sets the position.
     static json begin(Served& served, const std::string& name, const std::string& text) {
         json answer;
         do answer = served.post("start_program", {{"name", name}, {"text", text}});
         while (answer.dump().find("try again") != std::string::npos);
         return answer;
     }
-    /// Orders that were acknowledged, of a short session.
+    /// Result of a short session: its acknowledged commands, and how far it came.
     struct Session {
         std::vector<std::string> acknowledged;
         bool started = false, arrived = false;
         int code = -1;
     };
-    /// A program that goes to `x`, and an end that is asked for.
+    /// Sets the position, runs a program that moves to `x`, and ends the server by SIGTERM.
     Session short_session(const std::string& plan, double x) const {
         const BadDiskAhead disk(at("data"), plan, "", at("count"));
         Session out;
@@ -95,7 +96,7 @@ class ServedRackOnABadDisk : public InFolder {
         out.code = served.end(SIGTERM);
         return out;
     }
-    /// By a disk that is good again. `lies`: the disk said that it had done what it had not.
+    /// Checks the journal of a session on a good disk. `lies`: the disk reported success for a call that it dropped.
     void check(const Session& session, bool lies) const {
         if (session.code != 0) {
             EXPECT_EQ(session.code, 5);
@@ -110,7 +111,8 @@ class ServedRackOnABadDisk : public InFolder {
             for (const std::string& one : session.acknowledged) EXPECT_THAT(orders, HasSubstr(one));
         }
     }
-    /// `before`: where the session before this one left the axis; this one went to `x`.
+    /// Checks the position at the next start. `before`: position at the end of the previous session; `x`: target of
+    /// this.
     void check_positions(const Session& session, bool lies, double before, double x) const {
         Served next(arguments(), false);
         if (next.port() == 0) {
@@ -201,14 +203,14 @@ TEST_F(ServedRackOnABadDisk, LosesNothingAcknowledgedAndHasNoWrongPositionAsVali
 /// Changes of the users file: each is acknowledged once it is written, and only then in force.
 class UsersOfAServedRackOnABadDisk : public ServedRackOnABadDisk {
   protected:
-    /// A request that changes the file, and what it answers.
+    /// Sends a request that changes the file; returns the answer.
     using Change = std::function<json(Served&)>;
 
     static json pair(Served& served, const char* name) {
         const std::size_t at = served.said.find("#pair=");
         return served.post("pair", {{"code", served.said.substr(at + 6, 9)}, {"name", name}});
     }
-    /// Pairs a user on a disk that is good; returns the token.
+    /// Pairs a user on a good disk; returns the token.
     std::string paired(const char* name) const {
         Served served(with_pairing());
         const json answer = pair(served, name);
@@ -230,7 +232,7 @@ class UsersOfAServedRackOnABadDisk : public ServedRackOnABadDisk {
         for (const json& one : users.value("users", json::array())) out += one["name"].get<std::string>() + " ";
         return out;
     }
-    /// Number of calls of the disk of a session with this change.
+    /// Returns the number of disk calls of a session with this change.
     std::int64_t calls_with(const Change& change) const {
         const BadDiskAhead disk(at("data"), "fail 0", "", at("count"));
         Served served(with_pairing());
@@ -238,8 +240,9 @@ class UsersOfAServedRackOnABadDisk : public ServedRackOnABadDisk {
         EXPECT_EQ(served.end(SIGTERM), 0);
         return calls();
     }
-    /// Makes a change that leaves the users `after`, on disks of which a call that belongs to it goes wrong. `token`:
-    /// of the user that changes, also as `change` sets it; `is_known`: it is valid after the change.
+    /// Makes a change on disks whose calls during it fail in turn. Expects the file to have the change if it was
+    /// acknowledged, else the change or the old text. `after`: names after the change; `token`: of the changed user,
+    /// may be set by `change`; `is_known`: the token is valid after the change.
     void expect_acknowledged_if_written(const Change& change, const std::string& after, const std::string& token,
                                         bool is_known) const {
         const std::string old = users_text();

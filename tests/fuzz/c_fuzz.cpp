@@ -55,7 +55,7 @@ class Caller {
   private:
     // ---- arguments
     std::uint32_t below(std::uint32_t n) { return bytes_.below(n); }
-    /// Occasionally null.
+    /// Returns the pointer, occasionally null.
     template <class Pointer>
     Pointer or_null(Pointer pointer) {
         return below(40) == 0 ? nullptr : pointer;

@@ -30,7 +30,7 @@ constexpr std::array card_numbers = {13, 7};
 constexpr std::size_t no_card = card_numbers.size();  ///< index of a handle that is not open
 
 constexpr int max_waits = 12;            ///< waiting calls per input
-constexpr int not_stored = 0x5EED;       ///< what an answer's place has before a call
+constexpr int not_stored = 0x5EED;       ///< value of an output argument before a call
 constexpr std::int64_t stop_us = 1'000;  ///< until the card has executed Q
 
 /// Arguments of a caller: the handle of a card, numbers in and out of range, null pointers.
@@ -71,7 +71,7 @@ class Arguments {
                 return some[below(some.size())];
         }
     }
-    /// A time that a call waits at most: short, or out of range.
+    /// Draws a timeout of a call: short, or out of range.
     int milliseconds() {
         static constexpr std::array<int, 4> far = {0, -1, 600'001, std::numeric_limits<int>::min()};
         return below(8) == 0 ? far[below(far.size())] : 1 + static_cast<int>(below(60));
@@ -231,7 +231,7 @@ class Caller {
         require(handles_[card] > 0, "a card that is not open can be opened", databoard4002_last_error());
         stops_[card] = {};
     }
-    /// The bus stays open by the other card, and the stop ends with the handle.
+    /// Closes a card and opens it again; the other card keeps the bus open, and the stop ends with the old handle.
     void reopen(std::size_t card) {
         const int old = handles_[card];
         require(databoard4002_open(nullptr, card_numbers[card]) == -1, "a card is not opened twice");
@@ -241,7 +241,7 @@ class Caller {
         require(handles_[card] != old, "a handle is not used again");
     }
 
-    /// What a rejected call may not change: the time and what can be seen of both cards.
+    /// Returns the time and the readable state of both cards, which a rejected call must not change.
     std::string cards() const {
         std::string out = std::to_string(databoard4002_now_us(handles_[0]));
         for (const int handle : handles_)

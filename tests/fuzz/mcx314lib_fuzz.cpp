@@ -119,7 +119,7 @@ class Arguments {
         return below(30) == 0 ? nullptr : pointer;
     }
     int speed() { return below(16) == 0 ? draw(std::type_identity<int>{}) : 1 + static_cast<int>(below(4000)); }
-    /// A speed for calls that wait for the end of a move.
+    /// Draws a speed for calls that wait for the end of a move.
     int quick() { return 500 + static_cast<int>(below(8000)); }
     int place() { return below(32) == 0 ? draw(std::type_identity<int>{}) : static_cast<int>(below(2000)) - 1000; }
 

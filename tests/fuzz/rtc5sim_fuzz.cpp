@@ -100,7 +100,7 @@ class Arguments {
     }
 
   private:
-    /// In this order with every compiler.
+    /// Draws 32 bits, the high word first with every compiler.
     UINT wide() {
         const UINT high = bytes_.word();
         return high << 16 | bytes_.word();

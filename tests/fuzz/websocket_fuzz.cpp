@@ -83,7 +83,7 @@ class Frames {
     }
     bool is_closed() const { return is_closed_; }
     std::size_t answers() const { return answers_; }
-    /// Answers by id; "null" for those without.
+    /// Number of answers by id; "null" for those without an id.
     const std::map<std::string, int>& answered() const { return answered_; }
 
   private:

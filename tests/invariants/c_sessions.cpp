@@ -1,9 +1,9 @@
-// Puts the laws of sessions around motionrack/c.h. The linker hands the calls of a test to the functions below, which
-// call the library (option --wrap):
+// Checks the laws of sessions (session_laws.hpp) around the functions of motionrack/c.h. The linker redirects the calls
+// of a test to the functions below, which call the library (option --wrap):
 //
 //   test ──mr_advance_ns──► advance() ──► picture, mr_advance_ns of the library, picture ──► SessionLaws
 //
-// Queries need no such function: what they do to a session is in the next picture.
+// Queries need no such function: the next picture would show a change that they made.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <motionrack/c.h>
@@ -57,7 +57,7 @@ namespace motionrack::test {
 
 namespace {
 
-/// A test fails; a C program, which is no test, ends.
+/// Makes the current test fail; in a C program without tests, ends the program with code 70.
 void report_breach(const std::string& sentence) {
     if (testing::UnitTest::GetInstance()->current_test_info() != nullptr) {
         ADD_FAILURE() << "a law of sessions: " << sentence;
@@ -67,13 +67,13 @@ void report_breach(const std::string& sentence) {
     std::_Exit(70);
 }
 
-/// An axis of the laws, and the names of its values.
+/// A checked axis, and the names of its card, counter and pulses.
 struct NamedAxis {
     SessionAxis axis;
     std::string card, counter, pulses;
 };
 
-/// Axes of original MCX314s: an MCX314As may set its counters by itself.
+/// Returns the stepping axes of original MCX314s; an MCX314As may set its counters by itself.
 std::vector<NamedAxis> watched_axes(const rack::RackConfig& config) {
     std::vector<NamedAxis> out;
     for (const rack::PulseLink& link : config.pulse_links) {
@@ -95,7 +95,8 @@ class CSession {
         : rack_(rack), watched_(watched), laws_(axes_of(watched), picture(), report_breach) {}
 
     void see() { laws_.see(picture()); }
-    /// Of an order that was executed; those that were refused change nothing. Its call-back cannot close the rack.
+    /// Executes a call that may change counters, and records it if it succeeds. A call-back in it cannot close the
+    /// rack.
     template <class Call>
     int order(Call call) {
         if (!busy_ && !laws_.is_ordered()) see();
@@ -157,10 +158,10 @@ class CSession {
     mr_rack* rack_;
     std::vector<NamedAxis> watched_;
     SessionLaws laws_;
-    bool busy_ = false;  ///< in a call that advances time: the call-backs of a test come from there
+    bool busy_ = false;  ///< inside a call, which may call the call-backs of a test
 };
 
-/// The open sessions. Racks may be used by several threads at once, each by one.
+/// The open sessions. Several threads may use racks at the same time, each rack by one thread.
 struct OpenSessions {
     std::mutex lock;
     std::map<const mr_rack*, std::unique_ptr<CSession>> sessions;
@@ -172,7 +173,7 @@ struct OpenSessions {
         sessions[rack] = std::move(session);
         ++opened;
     }
-    /// nullptr: not open.
+    /// Returns nullptr if the rack is not open.
     CSession* find(const mr_rack* rack) {
         const std::lock_guard<std::mutex> alone(lock);
         const auto found = sessions.find(rack);
@@ -189,7 +190,7 @@ OpenSessions& open_sessions() {
     return all;
 }
 
-/// The progress of a program, with that of the test inside.
+/// User pointer of on_progress: the session, and the options with the test's own progress call-back.
 struct WatchedProgress {
     CSession* session = nullptr;
     const mr_run_options* own = nullptr;

@@ -1,9 +1,10 @@
-// Every session that a program linked with motionrack_c_sessions opens by motionrack/c.h is under the laws of sessions.
+// Programs linked with motionrack_c_sessions check the laws of sessions in every session that they open by
+// motionrack/c.h.
 #pragma once
 
 namespace motionrack::test {
 
-/// Number of sessions opened so far, copies included.
+/// Returns the number of sessions opened so far, including copies.
 int sessions_under_laws();
 
 }  // namespace motionrack::test

@@ -89,7 +89,7 @@ inline void stop_on_the_way(History& h) {
     h.pass(0.1);
 }
 
-/// A search that ends 0.6 mm off.
+/// Homes with a result that is 0.6 mm off. `switch_mended`: the switch is repaired during the search.
 inline void search_beside(History& h, bool switch_mended) {
     h.order(Invariants::Order::motion);
     h.now().axes[0].position_valid = false;

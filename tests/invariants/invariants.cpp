@@ -164,7 +164,7 @@ void Invariants::see_positions(const Sight& now) {
         // A set position is the one the operator entered, also if a motion starts with the next command. A homed one is
         // the true position from the switch edge on, also while other axes are still homing or a stop occurs.
         const auto by_pulses = static_cast<std::int32_t>(axis.sent - before.sent);  // counters have 32 bits
-        // The counter of a servo goes on where it is declared: it is the place of its 0 that changes.
+        // Setting the position of a servo keeps its counter and changes the position of its zero.
         const double by_card = facts_[i].servo ? (axis.commanded - before.commanded) * facts_[i].pulses_per_unit
                                                : static_cast<std::int32_t>(axis.counter - before.counter);
         const bool counts_anew = std::fabs(by_card - by_pulses) > (facts_[i].servo ? 1.5 : 0);
@@ -316,7 +316,7 @@ void Invariants::see_alarms(const Sight& now) {
         if (alarm.active && !alarm_texts_.insert(alarm.source + ": " + alarm.text).second)
             found(Rule::one_alarm_a_cause, now.at, fmt::format("twice before a reset: {}", alarm.text));
     }
-    // A reset ends all alarms but those that stay, as that of a journal that cannot be written.
+    // A reset ends all alarms except those that stay, such as that of a journal that cannot be written.
     if (std::none_of(now.alarms->begin(), now.alarms->end(),
                      [](const auto& alarm) { return alarm.active && !alarm.stays; }))
         alarm_texts_.clear();
@@ -349,7 +349,7 @@ void Invariants::see_limits(std::size_t i, double velocity, double seconds, cons
               fmt::format("axis {} went at {:g} a second, above its {:g}", facts.letter, velocity, facts.max_velocity));
     if (jumped_ || last_seconds_ == 0) return;
     const double change = std::fabs(velocity - own_[i].velocity);
-    // Runs with dead stops may end one direction and begin the other, each with a step.
+    // In runs with stops without a ramp, one direction may end and the other begin, each with a velocity step.
     const bool stops_dead = settings_.known.max_velocity_step > 2;
     const int steps = stops_dead && velocity * own_[i].velocity < 0 ? 2 : 1;
     const double explained = facts.max_accel * 1.05 * (seconds + last_seconds_) / 2,
@@ -370,7 +370,7 @@ void Invariants::see_limits(std::size_t i, double velocity, double seconds, cons
         found(Rule::limits_kept, now.at, std::move(text));
 }
 
-/// In a stop, and where a motion fails, a card may have to end its pulses without a ramp; then the position must become
+/// During a stop or a failing motion, a card may have to end its pulses without a ramp; then the position must become
 /// invalid at standstill.
 void Invariants::see_jumps(const Sight& now) {
     for (std::size_t i = 0; i < facts_.size(); ++i) {

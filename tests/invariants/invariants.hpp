@@ -23,7 +23,7 @@ namespace motionrack::test {
 enum class Rule : std::uint8_t {
     motion_needs_order,        ///< pulses only in moving states, of enabled axes, after a command
     stop_slows,                ///< after a stop no axis accelerates, all stop in time, lasers are off
-    stop_stays,                ///< no motion before a reset, and none by the reset
+    stop_stays,                ///< no motion before a reset, nor caused by the reset
     stop_is_taken,             ///< in every state
     reset_is_needed,           ///< an error stop ends only with a reset
     position_is_true,          ///< a valid position is the true position
@@ -71,8 +71,8 @@ struct AxisFacts {
     double following_alarm = 0;
 };
 
-/// Factors by which a run may exceed limits of its axes; 1: not at all. Known breaches stand in
-/// tests/known_breaches.txt.
+/// Factors by which a run may exceed limits of its axes; 1: not at all. tests/known_breaches.txt has the known
+/// breaches.
 struct LimitFactors {
     double max_accel = 1, max_velocity_step = 1;
 };
@@ -99,8 +99,8 @@ class Invariants {
     void ordered(Order order);
     /// A motor or value was pushed, held or overwritten from outside, so that pulses and true positions may differ.
     void disturbed();
-    /// A switch was forced, broken or mended. An edge that it makes by that during a search cannot be told from a true
-    /// one that is as far away, so the search that runs is not held to its result.
+    /// A switch was forced, broken or repaired. During a search, the resulting edge cannot be distinguished from a true
+    /// one, so the result of this search is not checked.
     void switch_disturbed() { search_disturbed_ = true; }
     /// A card hangs: its host waits for an answer, at most 2 s, and does nothing else.
     void hung() { hangs_ = pictures_of_a_hang; }
@@ -108,7 +108,7 @@ class Invariants {
     /// Reports a rule that is checked elsewhere.
     void found(Rule rule, Instant at, std::string text);
     const std::vector<Finding>& findings() const { return findings_; }
-    /// The peak acceleration so far, as a factor of its limit: what velocity step and counting do not explain.
+    /// Returns the peak acceleration so far relative to its limit, after subtracting velocity step and counting error.
     double peak_accel_factor() const { return peak_accel_factor_; }
 
   private:

@@ -1,4 +1,4 @@
-// A run with known breaches is judged by the limits times their factors, and tells what it reached.
+// A run with known breaches is checked against the limits times their factors, and reports the factors it reached.
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@ struct Judged {
     double peak_accel_factor = 0;
 };
 
-/// An axis with 1000 pulses per mm, 1000 mm/s2 and a velocity step of 2 mm/s, under way with 1.9 times this
-/// acceleration for 50 ms.
+/// Checks an axis with 1000 pulses per mm, 1000 mm/s2 and a velocity step of 2 mm/s, which accelerates for 50 ms with
+/// 1.9 times its limit.
 Judged judge_of_steep_ramp(const LimitFactors& known) {
     Invariants invariants({{'X', false, 1000, 100, 1000, 2}}, {0, milliseconds(12), known}, {});
     Sight now;

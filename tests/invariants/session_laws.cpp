@@ -75,7 +75,7 @@ void SessionLaws::see_limits(std::size_t axis, double velocity, double seconds) 
                             own.letter, velocities_[axis], velocity, allowed);
 }
 
-/// A stop may end the pulses without a ramp; the position is not valid then.
+/// Reports a velocity change only if the program ran to its end: a stop may end the pulses without a ramp.
 void SessionLaws::end_drive(const SessionPicture& now, bool moved, bool whole) {
     see_time(now);
     if (whole && !jump_.empty()) report_(jump_);

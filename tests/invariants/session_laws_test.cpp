@@ -12,7 +12,7 @@ class Told {
     Told()
         : laws({{'X', 100, 100, 1000, 2}}, {0, {0}, {0}}, [this](const std::string& text) { said.push_back(text); }) {}
 
-    /// The axis is sent pulses, and its counter goes by `counted`.
+    /// Advances 50 ms: the axis receives `sent` pulses, and its counter changes by `counted`.
     SessionPicture& pass(std::int64_t sent, std::int64_t counted) {
         now.ns += 50'000'000;
         now.pulses[0] += sent;
@@ -20,7 +20,7 @@ class Told {
         return now;
     }
     SessionPicture& pass(std::int64_t sent) { return pass(sent, sent); }
-    /// A program with these pulses in each interval.
+    /// Runs a program that sends these pulses, one number per interval.
     void drive(const std::vector<std::int64_t>& sent, bool whole = true) {
         laws.begin_drive();
         for (const std::int64_t one : sent) laws.during_drive(pass(one));

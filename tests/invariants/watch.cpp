@@ -1,4 +1,4 @@
-// Sights of racks and machines.
+// Takes the Sights of racks and machines.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -21,7 +21,7 @@ constexpr int thousand_hz = 16'384 - 400;
 class PanelOnADataBoard : public PanelOnACard {
   protected:
     PanelOnADataBoard() : PanelOnACard("databoard4002") {}
-    /// Rate of the card, asked for beside the program, which must not access it meanwhile.
+    /// Reads the rate of the card from the test's process; the program must not access the card meanwhile.
     int rate() const {
         const auto port =
             live::ByteCardPort::open(*live::read_port_spec(card.other_place()), databoard4002::card_map());
@@ -41,7 +41,7 @@ class PanelOnADataBoard : public PanelOnACard {
         good("go", json::object(), "Given.");
         good("rate", json::object(), std::to_string(thousand_hz) + " negative backwards, 0 at standstill");
     }
-    /// 100 s; its answer is served->answer().
+    /// Sends a move of 100 s without waiting for its end; served->answer() returns the answer.
     void begin_long_move() const {
         const json arguments = {{"counts", 100'000}, {"milliseconds", 60'000}};
         ASSERT_TRUE(served->send("POST", "call",

@@ -21,7 +21,7 @@
 
 namespace motionrack::live_test {
 
-/// Address of the served card, and what makes it fail.
+/// Access of the test to the served card, and its faults.
 class CardSeen {
   public:
     CardSeen() : place(std::getenv("MOTIONRACK_LIVE_PORT")) {
@@ -30,19 +30,19 @@ class CardSeen {
         refuse(0);
         remove(false);
     }
-    /// Reads the card beside the program.
+    /// Reads the card from the test's process.
     void look(unsigned offset, void* out, std::size_t bytes) const {
         const int file = ::open((files_ / "look").c_str(), O_RDWR | O_CLOEXEC);
         EXPECT_EQ(::pread(file, out, bytes, port_base + offset), static_cast<ssize_t>(bytes));
         ::close(file);
     }
-    /// Address of the card beside the program.
+    /// Returns the address of the card for the test's process.
     std::string other_place() const {
         return "port:" + (files_ / "look").string() + ",offset=" + std::to_string(port_base);
     }
     /// Makes the next `accesses` accesses of the program fail.
     void refuse(std::uint32_t accesses) const { put("refuse", accesses); }
-    /// Leaves an empty slot to the program, in which the card still drives.
+    /// Shows an empty slot to the program, while the card continues to drive.
     void remove(bool away) const { put("absent", away ? 1 : 0); }
 
     const std::string place;

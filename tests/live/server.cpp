@@ -36,7 +36,7 @@ constexpr std::size_t page = 4096;
 constexpr std::size_t first_register = page - 16;  // an access that is too wide leaves the page
 constexpr int cannot_serve = 77;
 
-/// Answers the doorbell until it is ended.
+/// Answers the requests of the doorbell until destruction.
 class Attendant {
   public:
     Attendant(VirtualCard& card, Doorbell& bell, char* registers)

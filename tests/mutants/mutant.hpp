@@ -21,7 +21,7 @@ inline int chosen() {
     return text ? std::atoi(text) : -1;
 }
 
-/// Each number once a process, without a lock: a mistake may sit where nothing may wait.
+/// Records each number once per process, without a lock: mutated code may run where nothing may wait.
 inline void reach(int number) {
     constexpr int max_numbers = 1 << 16;
     static std::atomic<bool> reached[max_numbers];

@@ -1,4 +1,4 @@
-// Changes of wires, as a card and its twin report them.
+// Wire changes reported by a card and its twin.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ struct Change {
     }
 };
 
-/// The last level of each wire at each instant, where it differs from the level before; by instant, then wire.
-/// `levels`: of all wires at first; of one wire `raw` is in the order of time.
+/// Returns the last level of each wire at each instant if it differs from the previous level, ordered by instant, then
+/// wire. `raw`: in order of time for each wire; `levels`: initial levels of all wires.
 inline std::vector<Change> settled(std::vector<Change> raw, std::vector<std::int64_t> levels) {
     const auto place = [](const Change& change) { return std::tie(change.at, change.wire); };
     std::stable_sort(raw.begin(), raw.end(), [&](const Change& a, const Change& b) { return place(a) < place(b); });

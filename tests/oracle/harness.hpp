@@ -1,15 +1,15 @@
-// The cards' oracle tests: a card and its twin, a second writing of its rules, get the same random programs and must
-// agree in all that can be observed. A program that shows a difference is shortened while it still shows one, and
-// printed with the command that repeats it.
+// Harness of the cards' oracle tests: a card and its twin, an independent second implementation of its rules, execute
+// the same random programs and must agree in all observable values. A program that shows a difference is shortened
+// while it still shows one, and printed with the command that repeats it.
 //
 // In the namespace of its type a program has
 //   void run_both(const Program&, oracle::Comparison&)   runs it on the card and on the twin, and compares them
 //   std::string listing_of(const Program&)               for messages
 //   steps_of(Program&)                                   std::tie of the vectors of its steps; `ops` needs none
-// and, if its state is saved and restored on the way, a member `snapshot_at`: the number of a step.
+// and, if its state is saved and restored during the program, a member `snapshot_at`: the number of a step.
 //
 // MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment select other and more programs,
-// MOTIONRACK_ONLY_PROGRAM a single one of them.
+// MOTIONRACK_ONLY_PROGRAM selects a single one of them.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,10 +30,10 @@
 
 namespace motionrack::oracle {
 
-/// A `snapshot_at` of programs whose state is not saved.
+/// Value of `snapshot_at` of programs whose state is not saved.
 inline constexpr std::size_t never = SIZE_MAX;
 
-/// What the twin and the card show in one program.
+/// Compares the observable values of the twin and the card in one program.
 class Comparison {
   public:
     template <class Twin, class Card>
@@ -69,7 +69,7 @@ class Comparison {
     std::map<std::string, std::int64_t> counts_;
 };
 
-/// Numbered lines, one per step.
+/// Returns a program as numbered lines, one per step.
 template <class Steps>
 std::string text_of_steps(const Steps& steps) {
     std::string out;
@@ -77,7 +77,7 @@ std::string text_of_steps(const Steps& steps) {
     return out;
 }
 
-/// Saves the kernel's state and what has been recorded, lets `disturb` change both, and restores them.
+/// Saves the kernel's state and the recorded values, calls `disturb`, which changes both, and restores them.
 template <class Kernel, class Disturb, class... Recorded>
 void disturb_and_restore(Kernel& kernel, const Disturb& disturb, Recorded&... recorded) {
     const auto snapshot = kernel.snapshot();
@@ -107,7 +107,7 @@ Comparison comparison_of(const Program& program) {
     return out;
 }
 
-/// Leaves out steps of the vector number `part` while `fails(program)`. The last one, which ends the program, stays.
+/// Removes steps of vector number `part` while `fails(program)`. Keeps the last step, which ends the program.
 template <std::size_t part, class Program, class Fails>
 void shrink_part(Program& program, const Fails& fails, int max_tries) {
     const auto steps = [](Program& of) -> decltype(auto) { return std::get<part>(steps_of(of)); };
@@ -133,7 +133,7 @@ void shrink_part(Program& program, const Fails& fails, int max_tries) {
     }
 }
 
-/// The program with only those steps that the failure needs; tries at most `max_tries` programs for each vector.
+/// Reduces a program to the steps that the failure needs; tries at most `max_tries` programs for each vector.
 template <class Program, class Fails>
 Program shrink(Program program, const Fails& fails, int max_tries = 3000) {
     [&]<std::size_t... part>(std::index_sequence<part...>) {
@@ -143,7 +143,7 @@ Program shrink(Program program, const Fails& fails, int max_tries = 3000) {
     return program;
 }
 
-/// The number of programs of a test.
+/// Return the number of programs of a test.
 inline std::uint64_t programs(std::uint64_t everyday) {
     return cases("MOTIONRACK_PROGRAMS", everyday);
 }
@@ -151,13 +151,13 @@ inline std::uint64_t programs(std::uint64_t everyday, std::uint64_t all) {
     return trials("MOTIONRACK_PROGRAMS", everyday, all);
 }
 
-/// Programs number first .. first + count - 1 of a seed.
+/// Programs of a test: numbers first .. first + count - 1 of a seed.
 struct Series {
     std::uint64_t first = 0, count = 0;
     std::uint64_t otherwise = 1;  ///< the seed without MOTIONRACK_SEED
 };
 
-/// The command that runs program `number` of the present test alone.
+/// Returns the command that runs only program `number` of the current test.
 inline std::string command_of(std::uint64_t seed, std::uint64_t number, const Series& series) {
     const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
     return fmt::format("MOTIONRACK_SEED={} MOTIONRACK_PROGRAMS={} MOTIONRACK_ONLY_PROGRAM={} ./test -R {}.{}", seed,

@@ -1,4 +1,4 @@
-// The harness of the oracle tests with a card of one fault: after a 3 it gets each 5 wrong.
+// Tests the harness of the oracle tests with a card that has one fault: after a step 3 it executes each step 5 wrongly.
 #include <gmock/gmock.h>
 #include <gtest/gtest-spi.h>
 

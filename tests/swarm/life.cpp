@@ -1,4 +1,4 @@
-// Lives of a machine.
+// Runs the lives of a machine.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -196,8 +196,8 @@ class Lives {
         for (const operate::AxisStatus& axis : status.axes) hash(static_cast<std::uint64_t>(axis.pulses));
     }
 
-    /// A paused clock: the same instant comes once more, with a status and possibly with commands. While a stop is in
-    /// force the clock runs, because the laws count statuses until it is heeded.
+    /// Simulates a paused clock: returns true if the same instant is to be repeated, with a status and possibly
+    /// commands. Never pauses during a stop, because the invariants count the statuses until the axes decelerate.
     bool stands() {
         const bool may = machine_ && !stood_ && !finished_ && !machine_->rack().stop_latch().latched();
         return stood_ = may && draws_.one_in(20);
@@ -364,7 +364,7 @@ class Lives {
     std::optional<Instant> disturbed_;  ///< time of the last fault
     int phase_ = 0;                     ///< state of use_again()
     bool forbidden_ = false, finished_ = false;
-    bool stood_ = false;  ///< the clock stood in the last slice
+    bool stood_ = false;  ///< the clock was paused in the last slice
 };
 
 }  // namespace

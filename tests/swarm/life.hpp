@@ -31,7 +31,7 @@ struct SeedEnd {
     std::uint64_t history = 0;  ///< hash of all snapshots, entries and commands while the run is repeatable
 };
 
-/// `folder`: an empty folder for the journals.
+/// Runs all lives of a seed. `folder`: an empty folder for the journals.
 SeedEnd drive_seed(std::uint64_t seed, const std::string& folder);
 
 }  // namespace motionrack::swarm

@@ -8,7 +8,7 @@
 
 namespace motionrack::swarm {
 
-/// Adds its description to `what`.
+/// Draws a rack and adds its description to `what`.
 rack::RackConfig draw_rack(Draws& draws, std::string& what);
 
 }  // namespace motionrack::swarm

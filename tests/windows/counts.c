@@ -1,5 +1,5 @@
-/* Drives an MCX314 through the function library in every way and prints what a program can see of it, with every bit of
- * the numbers with a point: the same lines with the library of each system. */
+/* Uses all kinds of functions of the MCX314's function library and prints the results, doubles with every bit. The
+ * library of each operating system must give the same lines. */
 #include <math.h>
 #include <mcx314lib.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@ static void show(const char* what) {
     printf("\n");
 }
 
-/* Looks every 7 ms until all axes stand, 400 times at most. */
+/* Prints the state every 7 ms until all axes are at standstill, 400 times at most. */
 static void watch(const char* what) {
     int looks;
     for (looks = 0; looks < 400 && mcx314_moving(ALL) > 0; ++looks) {
@@ -94,7 +94,7 @@ static void paths(void) {
 
 static void inputs(void) {
     int i;
-    for (i = 0; i < 12; ++i) { /* the home switch, IN0 at Low, is reached after a while */
+    for (i = 0; i < 12; ++i) { /* the home switch (IN0) goes Low in the sixth step */
         mcx314_jog_home(X, 1, 0x0002, 100, 2000, 200);
         mcx314_advance_ms(100);
         if (i == 5) mcx314_set_wire("c1.xin0", 0);
@@ -138,7 +138,7 @@ static void encoder(void) {
     show("encoder");
 }
 
-/* On one card, whose pulses are counts of encoders, and on the first of two, whose pulses turn nothing. */
+/* Runs all tests on a rack: with one card, encoders count its pulses; with two, the pulses move no encoder. */
 static void all(const char* rack) {
     printf("card %d\n", mcx314_open(rack, NULL));
     SetPulseMode(ALL, 1);

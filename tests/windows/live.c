@@ -1,4 +1,5 @@
-/* Opens a real card, as in port:inpoutx64.dll,offset=0x300, sets its ranges and prints the last error: live PORT. */
+/* live PORT: opens a real card, PORT such as port:inpoutx64.dll,offset=0x300, sets its ranges and prints the last
+ * error. */
 #include <mcx314lib.h>
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
-/* Functions as those of InpOut32 (inpoutx64.dll) whose ports read 0, as of a chip at rest; each access is a line of
- * stderr. PORT_DRIVER=off: as without its driver. */
+/* Stub of InpOut32 (inpoutx64.dll): all ports read 0, as those of an idle chip; each access prints a line to stderr.
+ * PORT_DRIVER=off: acts as if its driver were not installed. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

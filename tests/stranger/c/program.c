@@ -1,4 +1,4 @@
-/* The program of c.h, in a stranger's hands: X moves by 100 pulses. */
+/* The program in the header comment of c.h, built against the installed package: X moves by 100 pulses. */
 #include <motionrack/c.h>
 #include <stdio.h>
 

@@ -1,4 +1,4 @@
-// The function library on a port that a stranger wrote: it prints the register traffic.
+// The function library on a user-defined port, which prints the register accesses; built against the installed package.
 #include <cstdio>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 

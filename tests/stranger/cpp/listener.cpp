@@ -1,4 +1,4 @@
-// Frames from other computers, in a stranger's program.
+// A program that receives frames from other computers; built against the installed package.
 #include <cstdio>
 #include <motionrack/dds/subscriber.hpp>
 

@@ -1,4 +1,4 @@
-// The README's lines, in a program of a stranger.
+// The program of the README, built against the installed package.
 #include <cstdio>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>

@@ -1,4 +1,4 @@
-// A marking job in a stranger's program.
+// A program that runs a marking job; built against the installed package.
 #include <cstdio>
 #include <motionrack/mark/render.hpp>
 
