@@ -183,6 +183,7 @@ void Machine::drive() {
 /// Ends all motion and drops all requests. Axes that still move first decelerate.
 void Machine::failed(const Error& error) {
     failures_.push_back({publisher_.at_work(), error.text()});
+    publisher_.tools_off();  // at once; only the axes take time
     programs_.stream().stop();
     manual_.jogs().let_go();
     if (!manual_.jogs().any() && !programs_.stream().has_work()) return enter_failures();
