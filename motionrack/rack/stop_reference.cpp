@@ -151,8 +151,9 @@ std::string safety_reference() {
         out += fmt::format("| {} | {} | {} |\n", name_of(text.source), text.sets, text.resets);
     out +=
         "\n## Reactions\nStop categories of IEC 60204-1: 0, the power is removed immediately; 1, a controlled stop, "
-        "then the power is removed; 2, a controlled stop with the power kept. The code executes this table "
-        "(`motionrack/rack/stop_reactions.cpp`).\n\n| part | source | category | reaction | by | within |\n"
+        "then the power is removed; 2, a controlled stop with the power kept. The rows are those of the code: of cards "
+        "in their plug-ins, of other parts in `motionrack/rack/stop_reactions.cpp`. The latch executes its own rows; "
+        "the others state what cards and the executor do.\n\n| part | source | category | reaction | by | within |\n"
         "|---|---|---|---|---|---|\n";
     for (const StopReaction& reaction : stop_reactions())
         out += fmt::format("| {} | {} | {} | {} | {} | {:g} ms{} |\n", reaction.part, sources_of(reaction),
@@ -162,8 +163,10 @@ std::string safety_reference() {
     out +=
         "## States and sources\nEach cell is the end of a test name, "
         "`EveryState/StopInAState.HoldsUntilAReset/..` (`motionrack/operate/test/stop_states_test.cpp`): a stop in "
-        "that state, by that source, with laser, belt, stage and outputs on. The test checks all of the above, in "
-        "virtual time.\n\n| state |";
+        "that state, by that source, with laser, belt, stage, outputs, spindle and coolant on. The test checks in "
+        "virtual time: 10 ms after the stop laser, outputs, spindle and coolant are off, and the belt decelerates. "
+        "Resume, lines, programs, jogs and homing are refused until the reset, and the reset moves and switches on "
+        "nothing.\n\n| state |";
     for (const StopSource source : stop_sources) out += fmt::format(" {} |", name_of(source));
     out += "\n|---|---|---|---|---|---|---|\n";
     static constexpr std::array<std::string_view, stop_sources.size()> test_names = {
