@@ -1,10 +1,9 @@
-"""Makes the wheel of the package with nothing but CMake, a compiler and Python's own library: PEP 517, without network.
+"""Makes the wheel of the package with CMake, a compiler and Python's standard library: PEP 517, without network.
 
     pip ──build_wheel──► cmake -S .. -B ../build/python ──► _core.*.so and the package's files
                                                           ──► motionrack-VERSION-cp311-cp311-linux_x86_64.whl
 
-A build folder that is there already is taken by  --config-settings=build-dir=FOLDER, so that nothing is compiled
-twice.
+--config-settings=build-dir=FOLDER uses an existing build folder, so that nothing is compiled twice.
 """
 
 from __future__ import annotations
@@ -24,13 +23,13 @@ from typing import Any
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
-# The project's own, and those of what is compiled into the module.
+# Licence of the project, and licences of the code compiled into the module.
 LICENCES = ("LICENSE", "packaging/copyright")
 Settings = dict[str, Any] | None
 
 
 def version() -> str:
-    """The project's, which CMakeLists.txt has."""
+    """Returns the version of the project, read from CMakeLists.txt."""
     match = re.search(
         r"^project\(motionrack VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.MULTILINE
     )
@@ -47,7 +46,7 @@ def tag() -> str:
 
 
 def compiled(settings: Settings) -> Path:
-    """The folder of the built package."""
+    """Builds the package; returns its folder."""
     chosen = (settings or {}).get("build-dir")
     folder = Path(str(chosen)).resolve() if chosen else ROOT / "build" / "python"
     if not chosen or not (folder / "CMakeCache.txt").exists():
@@ -75,7 +74,7 @@ def compiled(settings: Settings) -> Path:
 
 
 def described() -> dict[str, str]:
-    """The files of the wheel's dist-info, RECORD left out."""
+    """Returns the files of the wheel's dist-info, except RECORD."""
     project = tomllib.loads((HERE / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     head = [
         (

@@ -30,12 +30,12 @@ from .trace import Trace
 
 
 def templates() -> list[str]:
-    """Names of the templates for :meth:`Rack.template`; the first is the default."""
+    """Returns the names of the templates for :meth:`Rack.template`; the first is the default."""
     return _core.template_names()
 
 
 def template_text(name: str = "router") -> str:
-    """The rack file of a template: every key with its unit, range and default as a comment. InvalidInput."""
+    """Returns the rack file of a template: every key with its unit, range and default as a comment. InvalidInput."""
     return _core.template_text(name)
 
 

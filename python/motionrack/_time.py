@@ -1,4 +1,4 @@
-"""Seconds to whole ticks of 100 ps and back."""
+"""Converts seconds to whole ticks of 100 ps and back."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ TICKS_PER_SECOND = 10_000_000_000
 
 
 def ticks_of(seconds: float = 0.0, ms: float = 0, us: float = 0, ns: float = 0) -> int:
-    """The nearest tick of 100 ps; whole numbers of s, ms, us and ns are exact."""
+    """Returns the sum of the times in ticks of 100 ps, rounded; whole numbers of s, ms, us and ns are exact."""
     total = 0
     for value, size in ((seconds, TICKS_PER_SECOND), (ms, 10_000_000), (us, 10_000), (ns, 10)):
         if isinstance(value, int):
@@ -25,5 +25,5 @@ def ticks_of(seconds: float = 0.0, ms: float = 0, us: float = 0, ns: float = 0) 
 
 
 def seconds_of(ticks: int) -> float:
-    """Ticks of 100 ps in s."""
+    """Converts ticks of 100 ps to s."""
     return ticks / TICKS_PER_SECOND

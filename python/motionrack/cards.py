@@ -1,10 +1,10 @@
-"""Cards of a rack by their own maps: registers, fields, channels, values, the function library.
+"""Cards of a rack: registers, fields, channels and values by the names of the card's map, and the function library.
 
     card = rack.cards["c1"]
-    card.RR0.DRV             a field, read without side effects and without time
-    card.RR3.read().DEND     an access of the bus with all its effects
-    card.WR0 = 0x0120        an access of the bus
-    card.x.LP                what belongs to a channel
+    card.RR0.DRV             a field, read without side effects; takes no time
+    card.RR3.read().DEND     a bus access with all its side effects
+    card.WR0 = 0x0120        a bus access
+    card.x.LP                a value or register of a channel
     card.driver.TCurve_F(1, 100, 2000, 200, 12000)
     card.library.TCurve_F(1, 100, 2000, 200, 12000)      as on a real card, see LiveCard
 """
@@ -77,7 +77,7 @@ class Card(MappedCard):
     @property
     def channels(self) -> dict[str, Channel]:
         """Its channels by their names: ``card.channels["x"]`` is ``card.x``;
-        of cards that number them ``card.channels["0"].POSITION``."""
+        for cards with numbered channels ``card.channels["0"].POSITION``."""
         names = [
             *self._about["channels"],
             *(value.partition(".")[0] for value in self._about["values"] if "." in value),
@@ -97,22 +97,22 @@ class Card(MappedCard):
     # ---- peeking, reading, writing ----
 
     def peek(self, name: str) -> int:
-        """A register or value by its name (``"RR0"``, ``"x.LP"``), without any effect; takes no time.
-        InvalidInput with the names that there are."""
+        """Returns a register or value by its name (``"RR0"``, ``"x.LP"``), without side effects; takes no time.
+        InvalidInput, with the known names."""
         return _core.peek(self._world, self._name, name)
 
     def read(self, offset: int, bits: int = 16) -> int:
-        """One access of the bus, with all effects: ``offset`` in bytes in the card's map, ``bits`` 8,
-        16 or 32 as the card's bus makes them."""
+        """Makes one bus access with all side effects: ``offset`` in bytes in the card's map, ``bits`` 8,
+        16 or 32 according to the card's bus."""
         return _core.read(self._world, self._name, bits, int(self._about["base"]) + offset)
 
     def write(self, offset: int, value: int, bits: int = 16) -> None:
-        """One access of the bus, with all effects; ``value`` 0 to 2**bits - 1."""
+        """Makes one bus access with all side effects; ``value`` 0 to 2**bits - 1."""
         _core.write(self._world, self._name, bits, int(self._about["base"]) + offset, value)
 
     def view(self, clearing: bool = False) -> str:
-        """The meaning of its registers, read through the bus; ``clearing``: also RR3, which reading clears. Refused
-        for cards without a view."""
+        """Returns its registers as decoded text, read through the bus; ``clearing``: also RR3, which reading clears.
+        Refused for cards without a view."""
         return _core.view(self._world, self._name, clearing)
 
     def wait_interrupt(self, timeout: float) -> None:
@@ -121,7 +121,8 @@ class Card(MappedCard):
             raise Timeout(f"Card {self._name}: timed out after {timeout:g} s: no interrupt.")
 
     def refused_frames(self) -> int:
-        """Frames that a motion card on a grating bus did not publish since the start. Refused for other cards."""
+        """Returns the number of frames that a motion card on a grating bus did not publish since the start. Refused for
+        other cards."""
         return _core.refused_frames(self._world, self._name)
 
     # ---- its function library ----
@@ -129,13 +130,13 @@ class Card(MappedCard):
     @property
     def driver(self) -> Any:
         """Its function library, an object of its type (Mcx314, Databoard4002, Ioflex02, GratingCard, Rtc5);
-        made at first use, or by :meth:`open`."""
+        created at first use, or by :meth:`open`."""
         if self._driver is None:
             self.open()
         return self._driver
 
     def open(self, **settings: Any) -> Any:
-        """A function library with its own settings: of a databoard4002 ``counts_per_mm`` (> 0) and ``select`` (0 to
+        """Creates the function library with settings: for a databoard4002 ``counts_per_mm`` (> 0) and ``select`` (0 to
         255)."""
         kinds: dict[str, Any] = {
             "mcx314": _core.Mcx314,
@@ -153,8 +154,8 @@ class Card(MappedCard):
 
     @property
     def library(self) -> _core.Mcx314Library:
-        """The functions of its source with their own arguments, checked as on a real card
-        (:attr:`LiveCard.library`). Not beside ``driver``. Refused for cards of other types."""
+        """The functions of an MCX314's source with their original arguments, checked as on a real card
+        (:attr:`LiveCard.library`). Cannot be used together with ``driver``. Refused for cards of other types."""
         if self._library is None:
             if self.type != "mcx314":
                 raise Refused(

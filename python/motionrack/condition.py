@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Condition:
     """One report of a card or part, as mr_conditions returns it in C."""
 
-    number: int  #: begins with 1; a gap shows that older ones were dropped
+    number: int  #: from 1; a gap shows that older ones were dropped
     seconds: float  #: virtual time at which it happened
     source: str  #: name of the card or part, "rack" if neither
     code: int  #: of this kind of card

@@ -1,4 +1,4 @@
-"""Errors by name. All of them are :class:`Error`; each sentence has the value, the limit and the effect.
+"""Exceptions of the package, all subclasses of :class:`Error`; each sentence has the value, the limit and the effect.
 
     InvalidInput      a rack file, a part program or a name is wrong; nothing was done
     Refused       well formed, but outside a limit or at the wrong time; nothing was done
@@ -7,7 +7,7 @@
     FileError   a file could not be read or written
     Stopped       the run was ended by its user; the recording is kept
 
-Ctrl-C is a KeyboardInterrupt, as everywhere in Python: moving axes stop first.
+Ctrl-C raises KeyboardInterrupt, as everywhere in Python, after the moving axes have stopped.
 """
 
 from __future__ import annotations

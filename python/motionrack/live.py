@@ -27,7 +27,7 @@ from . import _core
 from .errors import InvalidInput, Error, Stopped, Timeout
 from .registers import MappedCard, Register
 
-ExceptionKind = type[BaseException]  # a card's own `type` hides Python's
+ExceptionKind = type[BaseException]  # in LiveCard, the property `type` hides Python's `type`
 _open: weakref.WeakSet[LiveCard] = weakref.WeakSet()
 
 
@@ -39,17 +39,17 @@ def _close_all() -> None:
 
 
 class LiveCard(MappedCard):
-    """A real card: its registers are attributes by the names of its map, in capitals or not; ``library`` has the
-    functions of an MCX314's source, ``driver`` the library as virtual cards have it.
+    """A real card: its registers are attributes by the names of its map, case does not matter; ``library`` has the
+    functions of an MCX314's source, ``driver`` the same library as virtual cards.
 
     Ctrl-C, an exception in a ``with`` block, its end, :meth:`close` and :meth:`quick_stop` stop all axes: an MCX314 at
     once and without a ramp, a DataBoard 4002 by its command Q. Ctrl-C acts while a call waits, in Python's main
-    thread. A stop stays active: until :meth:`reset_stop` nothing is written, and calls raise Stopped. What ends
-    without these (a signal other than Ctrl-C, loss of power) leaves the axes driving: limit switches and emergency
-    stop belong to the card, not to the program.
+    thread. A stop stays active: until :meth:`reset_stop` nothing is written, and calls raise Stopped. If the program
+    ends in another way (a signal other than Ctrl-C, loss of power), the axes continue to drive: limit switches and
+    emergency stop must be wired to the card, not depend on the program.
 
-    One thread at a time, the others are Refused; only :meth:`quick_stop` may come from any. While it is open no second
-    port can be opened on its registers, in this program or another one of motionrack.
+    One thread at a time may call it, the others are Refused; only :meth:`quick_stop` may be called from any thread.
+    While it is open, no other port can be opened on its registers, by this or another program with motionrack.
     """
 
     _port: _core.LivePort
@@ -58,8 +58,7 @@ class LiveCard(MappedCard):
     _place: str
 
     def __init__(self, place: str, type: str = "mcx314", *, select: int = 13) -> None:
-        """Opens the card at ``place``; nothing is written, and nothing of the card is reset. The status of an MCX314
-        is read.
+        """Opens the card at ``place`` without writing to it or resetting it. Reads the status of an MCX314.
 
         ``place``: ``"uio:/dev/uio0"``, ``"memory:PATH"`` (a file that can be mapped: a PCI memory region),
         ``"port:PATH"`` (a file with two bytes an access: a PCI I/O region, ``/dev/port``), then ``,offset=N`` bytes
@@ -67,8 +66,8 @@ class LiveCard(MappedCard):
         ``,gap_ns=N`` (0 to 10**9). ``type``: ``"mcx314"`` or ``"databoard4002"``; other cards have no map that a real
         one has. ``select``: number of a DataBoard 4002 on its bus, 0 to 255.
 
-        InvalidInput: the error in place or type. FileError: not there, no permission, too short. Refused: open
-        already, or it would not be reached as it must. Nothing is opened then.
+        InvalidInput: wrong place or type. FileError: not found, no permission, too short. Refused: already open, or the
+        required accesses are not possible. On an error nothing is opened.
         """
         port = _core.LivePort(place, type, select)
         super().__init__(port.map(), _port=port, _driver=None, _library=None, _place=place)
@@ -88,7 +87,7 @@ class LiveCard(MappedCard):
 
     @property
     def seconds(self) -> float:
-        """Real time since it was opened, s. Refused once it was closed."""
+        """Real time since it was opened, s. Refused after it was closed."""
         return self._port.now()
 
     # ---- its function library ----
@@ -96,8 +95,8 @@ class LiveCard(MappedCard):
     @property
     def library(self) -> _core.Mcx314Library:
         """The functions of the MCX314's source under their names, each with the arguments, ranges and sentences of its
-        declaration. It assumes the state after ``RESET()``. Refused beside ``driver``, of a card of another type, and
-        once the card was closed."""
+        declaration. Assumes the state after ``RESET()``. Refused if ``driver`` is in use, for a card of another type,
+        and after the card was closed."""
         if self._library is None:
             object.__setattr__(self, "_library", _core.Mcx314Library.of_live_port(self._port))
         assert self._library is not None
@@ -105,9 +104,9 @@ class LiveCard(MappedCard):
 
     @property
     def driver(self) -> Any:
-        """The library as virtual cards have it in :attr:`Card.driver`, with times in s: after ``initialise()`` of an
-        MCX314, or ``connect()`` of a DataBoard 4002, a program is the same on both. Refused beside ``library``, and
-        once the card was closed."""
+        """The same library as :attr:`Card.driver` of virtual cards, with times in s: after ``initialise()`` of an
+        MCX314, or ``connect()`` of a DataBoard 4002, a program is the same for both. Refused if ``library`` is in use,
+        and after the card was closed."""
         if self._driver is None:
             made = (
                 _core.Mcx314.of_live_port(self._port)
@@ -121,9 +120,9 @@ class LiveCard(MappedCard):
     # ---- stops ----
 
     def quick_stop(self) -> None:
-        """All axes stop: an MCX314 ends its pulses at once and without a ramp, a DataBoard 4002 gets Q; a call of
-        another thread ends with Stopped. From any thread, in every state. It holds until :meth:`reset_stop`. FileError
-        where the computer refuses the write, MachineFault where the card does not take Q."""
+        """Stops all axes: an MCX314 ends its pulses at once and without a ramp, a DataBoard 4002 receives Q. A running
+        call of another thread raises Stopped. Callable from any thread, in every state. The stop stays active until
+        :meth:`reset_stop`. FileError if the computer refuses the write, MachineFault if the card does not accept Q."""
         self._port.quick_stop()
 
     def reset_stop(self) -> None:
@@ -136,8 +135,8 @@ class LiveCard(MappedCard):
         return self._port.stopped()
 
     def close(self) -> None:
-        """Stops all axes and closes the card; a second call has no effect. Refused in the middle of a call of this
-        thread. FileError, MachineFault where the stop could not be written; it is closed all the same.
+        """Stops all axes and closes the card; a second call has no effect. Refused inside a call of this thread.
+        FileError or MachineFault if the stop could not be written; the card is closed nevertheless.
         """
         self._port.close()
         _open.discard(self)
@@ -156,15 +155,15 @@ class LiveCard(MappedCard):
     # ---- peeking, reading, writing ----
 
     def read(self, offset: int, bits: int = 16) -> int:
-        """One access, with all effects: ``offset`` in the card's map, of a register that can be read; ``bits``: 16, or
-        8 at the ports of a DataBoard 4002; also during a stop. InvalidInput, FileError.
+        """Makes one read access with all side effects. ``offset``: in the card's map, of a readable register; ``bits``:
+        16, or 8 at the ports of a DataBoard 4002. Allowed during a stop. InvalidInput, FileError.
         """
         self._check_bits(bits)
         return self._port.read(offset)
 
     def write(self, offset: int, value: int, bits: int = 16) -> None:
-        """One access, with all effects, of a register that can be written; ``value`` 0 to 2**bits - 1. Library and
-        driver do not know of the change. InvalidInput, Refused, Stopped, FileError.
+        """Makes one write access with all side effects to a writable register; ``value`` 0 to 2**bits - 1. Library and
+        driver do not take account of the change. InvalidInput, Refused, Stopped, FileError.
         """
         self._check_bits(bits)
         self._port.write(offset, value)
@@ -176,14 +175,14 @@ class LiveCard(MappedCard):
         )
 
     def view(self, clearing: bool = False) -> str:
-        """The meaning of its registers; also during a stop. Of an MCX314 it writes WR0, with NOP and read commands,
-        which move nothing; ``clearing``: also RR3, which reading clears. A DataBoard 4002 is selected, and gets the
-        commands P and R. FileError, MachineFault."""
+        """Returns its registers as decoded text; allowed during a stop. For an MCX314 it writes NOP and read commands
+        to WR0, which move nothing; ``clearing``: also RR3, which reading clears. A DataBoard 4002 is selected and
+        receives the commands P and R. FileError, MachineFault."""
         return self._port.view(clearing)
 
     def wait_interrupt(self, timeout: float) -> None:
         """Waits for its interrupt; Timeout after ``timeout`` s (0 to 9e8, or infinite). Stopped; Refused
-        without ``interrupt=`` (a UIO node has its own)."""
+        without ``interrupt=`` in the address (a UIO node needs none)."""
         if not self._port.wait_interrupt(timeout):
             if self.stopped:
                 raise Stopped(f"The card at {self._place} was stopped while it was waited for its interrupt.")

@@ -1,4 +1,4 @@
-"""A machine that is operated while it runs: step by step, from command to command."""
+"""A machine that is operated while it runs, in steps of simulated time with commands between them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .rack import Rack
 @dataclass(frozen=True)
 class AxisStatus:
     """One axis: positions in ``unit`` (mm or deg), velocity per s.
-    ``true_position`` is the position of the simulated table, whatever a counter says."""
+    ``true_position`` is the position of the simulated table, independent of all counters."""
 
     unit: str
     position_valid: bool  #: the positions are those of the machine: homed, declared or kept over a clean restart
@@ -31,7 +31,7 @@ class AxisStatus:
 
 @dataclass(frozen=True)
 class Alarm:
-    """Active until it is acknowledged and its cause is removed; ``seconds`` since the start."""
+    """An alarm (ISA-18.2): ``active`` until a reset or until its cause ends; ``seconds`` since the start."""
 
     number: int
     seconds: float
@@ -43,7 +43,7 @@ class Alarm:
 
 @dataclass(frozen=True)
 class Status:
-    """A machine at one instant."""
+    """The status of a machine at one instant."""
 
     seconds: float
     ticks: int
@@ -64,13 +64,13 @@ class Machine:
     """A rack that is operated while it runs: programs with hold and resume, jogs, homing, alarms,
     as on the operator panel.
 
-    Time passes in :meth:`advance` and :meth:`wait` only, in slices of 2 ms; commands are taken between two slices,
-    often in the middle of a drive. The same commands at the same times give the same event trace.
-    Positions of axes with a home switch are not valid before these are homed or set.
+    Time advances only in :meth:`advance` and :meth:`wait`, in slices of 2 ms; commands are executed between two slices,
+    also during a motion. The same commands at the same times give the same event trace.
+    The position of an axis with a home switch is not valid until the axis is homed or its position is set.
     """
 
     def __init__(self, rack: Rack) -> None:
-        """A machine with the file of ``rack``, at time 0, disabled. Refused if no program can run on it."""
+        """Creates a machine with the file of ``rack``, at time 0, disabled. Refused if no program can run on it."""
         self._core: _core.SteppedMachine | None = _core.SteppedMachine(rack._world)
 
     @classmethod
@@ -108,12 +108,12 @@ class Machine:
     # ---- time ----
 
     def advance(self, seconds: float = 0.0, *, ms: float = 0) -> None:
-        """Runs the machine for the sum of the times given, in whole slices of 2 ms."""
+        """Runs the machine for the sum of the given times, in whole slices of 2 ms."""
         self._operated().advance(ticks_of(seconds, ms))
 
     def wait(self, until: str | Callable[[Status], object], timeout: float, poll: float = 2e-3) -> Status:
         """Runs until the machine has that state, or ``until(status)`` is true,
-        checked each ``poll`` s (at least a slice, 0.002); Timeout."""
+        checked every ``poll`` s (at least a slice, 0.002). Timeout after ``timeout`` s."""
         end = self.status.ticks + ticks_of(timeout)
         while True:
             status = self.status
@@ -130,7 +130,7 @@ class Machine:
 
     @property
     def status(self) -> Status:
-        """The machine at this instant."""
+        """The status of the machine at this instant."""
         data = dict(self._operated().status())
         axes = {letter: AxisStatus(**axis) for letter, axis in data.pop("axes").items()}
         return Status(axes=axes, alarms=[Alarm(*alarm) for alarm in data.pop("alarms")], **data)
@@ -141,14 +141,14 @@ class Machine:
         return self.status.state
 
     def trace_hash(self) -> str:
-        """The hash of the event trace so far; see :meth:`Trace.hash`."""
+        """Returns the hash of the event trace so far; see :meth:`Trace.hash`."""
         return self._operated().trace_hash()
 
     def get(self, name: str) -> float:
-        """A quantity of a part, ``"X.position_mm"``; see :meth:`Rack.get`."""
+        """Returns a quantity of a part, ``"X.position_mm"``; see :meth:`Rack.get`."""
         return self._operated().quantity(name)
 
-    # ---- commands; refused ones change nothing ----
+    # ---- commands; rejected commands change nothing ----
 
     def enable(self, axes: str = "") -> None:
         """Enables these axes; ``""``: all."""
@@ -159,8 +159,8 @@ class Machine:
         self._operated().enable(False, axes)
 
     def start_program(self, program: str, name: str = "") -> None:
-        """Checks the whole program, then starts it: InvalidInput with line and column,
-        Refused unless the machine stands enabled, with valid positions."""
+        """Checks the whole program, then starts it. InvalidInput with line and column;
+        Refused unless the machine is enabled and at standstill, with valid positions."""
         self._operated().start_program(program, name)
 
     def hold(self) -> None:
@@ -172,7 +172,7 @@ class Machine:
         self._operated().resume()
 
     def stop(self) -> None:
-        """Decelerates all motion and discards programs; nothing moves until a reset. Never refused."""
+        """Decelerates all axes to a stop and discards programs; nothing moves until a reset. Never refused."""
         self._operated().stop()
 
     def reset(self) -> None:
@@ -184,7 +184,7 @@ class Machine:
         self._operated().home(axes)
 
     def jog(self, axis: str, speed: float) -> None:
-        """Jogs at ``speed`` (mm/s or deg/s, the sign is the direction) while it is called again within 0.25 s."""
+        """Jogs at ``speed`` (mm/s or deg/s, the sign is the direction); must be repeated within 0.25 s to continue."""
         self._operated().jog(axis, speed)
 
     def jog_by(self, axis: str, distance: float, speed: float) -> None:
@@ -192,11 +192,11 @@ class Machine:
         self._operated().jog_by(axis, distance, speed)
 
     def set_position(self, axis: str, position: float) -> None:
-        """Sets the position of a stationary axis, mm or deg, which is valid then. Refused while an axis moves."""
+        """Sets the position of a stationary axis, mm or deg, and makes it valid. Refused while an axis moves."""
         self._operated().set_position(axis, position)
 
     def set_overrides(self, feed: float = 1.0, rapid: float = 1.0) -> None:
-        """Feed override and rapid override: feed more than 0 up to 2, rapid more than 0 up to 1."""
+        """Sets the feed override (more than 0 up to 2) and the rapid override (more than 0 up to 1)."""
         self._operated().set_overrides(feed, rapid)
 
     def acknowledge_alarm(self, alarm: int) -> bool:
@@ -206,7 +206,7 @@ class Machine:
     # ---- the machine ----
 
     def wire(self, name: str) -> float:
-        """The level of a wire; see :class:`Wires`."""
+        """Returns the level of a wire; see :class:`Wires`."""
         return self._operated().wire(name)
 
     def set_wire(self, name: str, value: float | None) -> None:

@@ -19,7 +19,7 @@ class AxisOutcome:
 
     axis: str
     unit: str
-    servo: bool  #: a servo: pulses are counts of its encoder, none are sent
+    servo: bool  #: true for a servo: it receives no pulses; its pulse numbers are encoder counts
     min_position: float
     max_position: float
     max_velocity: float
@@ -84,7 +84,7 @@ class ProgramEvent:
 
 @dataclass(frozen=True)
 class Outcome:
-    """A part program that was run. ``ok``: it ended as programmed without lost steps; else ``error`` has the reason."""
+    """Result of a part program. ``ok``: it ended as programmed without lost steps; else ``error`` has the reason."""
 
     ok: bool
     error: Error | None
@@ -124,23 +124,24 @@ class Outcome:
         return self
 
     def summary(self) -> str:
-        """The summary of ``motionrack run``."""
+        """Returns the summary of ``motionrack run``."""
         return str(self._ran.summary())
 
     def json(self) -> str:
-        """The output of ``motionrack run --json``."""
+        """Returns the output of ``motionrack run --json``."""
         return str(self._ran.json())
 
     def svg(self, perspective: bool = False) -> str:
-        """The programmed and the executed path from above or in perspective (SVG). Refused once the rack was closed."""
+        """Returns a picture of the programmed and the executed path, from above or in perspective (SVG). Refused after
+        the rack was closed."""
         return str(self._ran.svg(perspective))
 
     def write_report(self, path: str) -> None:
-        """The page that ``motionrack run`` writes: one HTML file. FileError."""
+        """Writes the report of ``motionrack run``: one HTML file. FileError."""
         self._ran.write_report(path)
 
     def write_csv(self, path: str) -> None:
-        """Position, velocity and deviation of every sample as CSV. FileError."""
+        """Writes position, velocity and deviation of every sample as CSV. FileError."""
         self._ran.write_csv(path)
 
     def write_events(self, path: str) -> None:
@@ -155,7 +156,7 @@ class Outcome:
 
 
 def outcome_of(world: _core.RackHandle, ran: _core.Ran, title: str) -> Outcome:
-    """All data of a job from C++, with names and units."""
+    """Converts all data of a job from C++, adding names and units."""
     data = dict(ran.data())
     axes = {axis["axis"]: AxisOutcome(**axis) for axis in data.pop("axes")}
     error = ran.error()
@@ -184,7 +185,7 @@ def outcome_of(world: _core.RackHandle, ran: _core.Ran, title: str) -> Outcome:
 
 
 def job_units(signals: Mapping[str, Values], axes: Mapping[str, AxisOutcome]) -> dict[str, str]:
-    """Units of the samples of a job."""
+    """Returns the units of the samples of a job."""
     ends = {"position": "", "velocity": "/s", "accel": "/s2"}
     out = {"deviation": "mm"}
     for name in signals:
@@ -196,8 +197,8 @@ def job_units(signals: Mapping[str, Values], axes: Mapping[str, AxisOutcome]) ->
 
 @dataclass(frozen=True)
 class Homing:
-    """Result of homing. ``axes`` has for each axis the report of ``motionrack home --json``:
-    states, edges, places (mm or deg), s."""
+    """Result of homing. ``axes`` has the report of ``motionrack home --json`` for each axis:
+    states, switch edges, positions (mm or deg), times (s)."""
 
     ok: bool
     error: Error | None
@@ -216,11 +217,11 @@ class Homing:
         return self
 
     def summary(self) -> str:
-        """The report of ``motionrack home``."""
+        """Returns the report of ``motionrack home``."""
         return self._text
 
     def json(self) -> str:
-        """The output of ``motionrack home --json``."""
+        """Returns the output of ``motionrack home --json``."""
         return self._json
 
     def __str__(self) -> str:
@@ -231,7 +232,7 @@ class Homing:
 
 
 def homing_of(error: Error | None, text: str, as_json: str, pictures: dict[str, str]) -> Homing:
-    """A homing report from C++."""
+    """Converts a homing report from C++."""
     data = json.loads(as_json)
     return Homing(
         ok=bool(data["homed"]),

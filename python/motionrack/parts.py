@@ -9,10 +9,11 @@ from .errors import InvalidInput, NoSuchName
 
 
 class Wires(MutableMapping[str, float]):
-    """Every wire: ``CARD.PIN``, ``NAME.END`` or ``estop``. A digital wire is 0 or 1, an analog one is V.
+    """All wires by name: ``CARD.PIN``, ``NAME.END`` or ``estop``. The value of a digital wire is 0 or 1, of an analog
+    wire its voltage, V.
 
-    Setting one forces it from outside, in place of its driver; ``del`` or None releases it. InvalidInput (no such
-    wire), Refused (an output, another value).
+    Setting a wire forces it and disconnects its driver; ``del`` or None releases it. InvalidInput (unknown wire),
+    Refused (an output, an invalid value).
     """
 
     def __init__(self, world: _core.RackHandle) -> None:
@@ -49,10 +50,10 @@ class Wires(MutableMapping[str, float]):
 
 
 class Part:
-    """An axis, a stage, a belt, a table or a scan head: its true values, independent of all counters;
-    names end in their units.
+    """True values of an axis, a stage, a belt, a table or a scan head, independent of all counters;
+    the names of quantities end in their units.
 
-    Setting a quantity pushes the part by hand; Refused if that is not possible.
+    Setting a quantity moves the part by hand; Refused if that is not possible.
     """
 
     def __init__(self, world: _core.RackHandle, name: str, quantities: dict[str, str]) -> None:

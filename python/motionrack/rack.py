@@ -1,4 +1,4 @@
-"""A rack: cards, wires and the machine at their ends, in virtual time."""
+"""A rack: cards, their wires and the connected machine, in virtual time."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ Progress = Callable[[float, int, int], None]
 
 
 class Rack:
-    """A rack of cards. Its time is virtual: it passes only in the calls that say so and in accesses of a card's bus.
+    """A rack of cards. Its time is virtual: it advances only in bus accesses to a card and in the calls that say so.
 
-    One thread at a time; the others are Refused. Python's other threads continue while a rack runs. The same calls give
-    the same event trace, bit for bit. As a context manager it is closed at the end of the block.
+    One thread at a time may use a rack; the others are Refused. Python's other threads continue while a rack runs. The
+    same calls give the same event trace, bit for bit. As a context manager it is closed at the end of the block.
     """
 
     def __init__(self, world: _core.RackHandle, warnings: Iterable[str] = ()) -> None:
@@ -42,30 +42,30 @@ class Rack:
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Rack:
-        """The rack of a rack file. InvalidInput with ``problems``, each with its line and column; FileError."""
+        """Opens a rack file. InvalidInput with ``problems``, each with its line and column; FileError."""
         return cls(*_core.open_file(os.fspath(path)))
 
     @classmethod
     def from_text(cls, text: str, name: str = "") -> Rack:
-        """The rack of a rack file's text; ``name`` stands in the errors. ``'card.c1 = "mcx314"'`` is a whole rack.
-        InvalidInput."""
+        """Opens a rack from the text of a rack file; ``name`` is its name in errors. ``'card.c1 = "mcx314"'`` is a
+        complete rack. InvalidInput."""
         return cls(*_core.open_text(text, name))
 
     @classmethod
     def template(cls, name: str = "router") -> Rack:
-        """A rack from a template: one of :func:`motionrack.templates`. InvalidInput."""
+        """Opens a rack from a template: one of :func:`motionrack.templates`. InvalidInput."""
         return cls(*_core.open_text(_core.template_text(name), ""))
 
     def new_instance(self) -> Rack:
-        """Another rack of the same file, at time 0."""
+        """Returns another rack of the same file, at time 0."""
         return Rack(self._world.new_instance(), self.warnings)
 
     def change_card(self, name: str, **settings: float) -> None:
         """Changes settings of a card before the rack's time begins, in the units of their keys in a rack file:
         ``change_card("host", period_us=250)``.
 
-        Each value is checked against its range, and the card alone must be valid. Unlike in a rack file, the fit to
-        other cards is not checked: for experiments that a rack file refuses. InvalidInput, Refused.
+        Each value is checked against its range, and the card alone must be valid. Unlike in a rack file, consistency
+        with other cards is not checked, which allows experiments that a rack file rejects. InvalidInput, Refused.
         """
         for key, value in settings.items():
             self._world.set_card(name, key, float(value))
@@ -111,12 +111,12 @@ class Rack:
         return self._world.ticks()
 
     def advance(self, seconds: float = 0.0, *, ms: float = 0, us: float = 0, ns: float = 0) -> None:
-        """Advances the rack by the sum of the times given, 0 to 14 years in all; whole numbers are exact to the
+        """Advances the rack by the sum of the given times, 0 to 14 years in total; whole numbers are exact to the
         tick of 100 ps. Refused beyond that."""
         self._world.advance(ticks_of(seconds, ms, us, ns))
 
     def wait(self, condition: Callable[[], object], timeout: float, poll: float = 1e-3) -> None:
-        """Runs until ``condition()`` is true, which is checked now and each ``poll`` s (> 0);
+        """Runs until ``condition()`` is true, which is checked now and every ``poll`` s (> 0);
         Timeout after ``timeout`` s."""
         step, end = ticks_of(poll), self.ticks + ticks_of(timeout)
         if step <= 0:
@@ -141,18 +141,18 @@ class Rack:
     # ---- looking ----
 
     def peek(self, name: str) -> int:
-        """A register or value of a card, ``"c1.x.LP"``, without any effect; takes no time. InvalidInput."""
+        """Returns a register or value of a card, ``"c1.x.LP"``, without side effects; takes no time. InvalidInput."""
         card, _, value = name.partition(".")
         return _core.peek(self._world, card, value)
 
     def get(self, name: str) -> float:
-        """A quantity of a part or card, ``"X.position_mm"``, ``"c1.fout_hz"``; its unit is at the end of its name.
+        """Returns a quantity of a part or card, ``"X.position_mm"``, ``"c1.fout_hz"``; the name ends in its unit.
         InvalidInput."""
         return self._world.quantity(name)
 
     def set(self, name: str, value: float) -> None:
-        """Pushes a part there by hand: ``position_mm`` (``position_deg``), ``position_pulses``;
-        of a belt or table ``speed_mm_s`` (``speed_deg_s``).
+        """Moves a part by hand: sets ``position_mm`` (``position_deg``) or ``position_pulses``;
+        for a belt or table ``speed_mm_s`` (``speed_deg_s``).
 
         A motor in step moves to the nearest position of the same electrical phase: read the quantity for the result.
         InvalidInput, Refused.
@@ -168,41 +168,42 @@ class Rack:
         ]
 
     def bus_conflicts(self) -> int:
-        """Number of conflicts of two cards on a line of the grating bus so far.
+        """Returns the number of conflicts so far of two cards on a line of the grating bus.
         Refused without a grating bus."""
         return _core.bus_conflicts(self._world)
 
     def frame_picture(self, frame: int = 1) -> str:
-        """Frame number 1 .. of the grating bus as waves (SVG); a rack of its own is run for it. Refused without one."""
+        """Returns frame number ``frame`` (from 1) of the grating bus as waves (SVG), from a separate run of this rack.
+        Refused without a grating bus."""
         return _core.frame_picture(self._world, frame)
 
     def trace_hash(self) -> str:
-        """The hash of the event trace so far, 16 digits: every change of a wire and every condition at its tick.
+        """Returns the hash of the event trace so far, 16 digits: all wire changes and conditions with their ticks.
         See :meth:`Trace.hash`."""
         return self._world.trace_hash()
 
     def state_hash(self) -> str:
-        """Equal states have equal hashes: 16 digits."""
+        """Returns the hash of the rack's state, 16 digits; equal states have equal hashes."""
         return self._world.state_hash()
 
-    # ---- breaking things ----
+    # ---- faults ----
 
     @property
     def faults(self) -> dict[str, list[str]]:
-        """The faults of each target."""
+        """The faults that can be injected, by target."""
         return dict(self._world.fault_targets())
 
     def fault(self, target: str, fault: str, value: float | None = None) -> None:
         """Injects a fault at this instant, or repairs it: ``fault("X", "encoder.broken_a")``, ``fault("X",
         "motor.lose_steps", 64)``.
 
-        The default value is 1; 0 repairs a repairable fault. InvalidInput (names), Refused (the part is missing, the
-        value).
+        The default value is 1; 0 repairs a repairable fault. InvalidInput (unknown name), Refused (the target has no
+        such part, value out of range).
         """
         self._world.fault(fault if value is None else f"{fault}={value:.17g}", target)
 
     def plan_fault(self, text: str, value: float | str | None = None, *, at: float | None = None) -> None:
-        """Plans a fault before the rack's time begins, as a command line does:
+        """Schedules a fault before the rack's time begins, in the syntax of the command line:
         ``"X.limit_plus=0@0.5s"``, ``"X.encoder.broken_a@1s"``.
 
         Or by parts: ``plan_fault("X.limit_plus", 0, at=0.5)`` with ``at`` in s (0 to 1e6).
@@ -229,18 +230,19 @@ class Rack:
         tools: str | os.PathLike[str] | None = None,
     ) -> Outcome:
         """Runs a part program to standstill: its text, or the file at ``path``, beside which its subprograms lie.
-        It begins where the axes stand: where the rack file says, or after other programs and :meth:`home` where the
-        pulses since have led, by whatever command. G-code modes are reset.
+        It starts at the controller's position of the axes: the initial position of the rack file or that of the last
+        :meth:`home`, plus all pulses sent since, by any command. G-code modes are reset.
 
         ``tools``: path of a tool table (LinuxCNC's ``.tbl``) with the lengths for G43 and the diameters for G41, G42.
         ``profile``: ``"trapezoid"`` or ``"jerk_limited"`` instead of the rack file's. ``faults``: see
         :meth:`plan_fault`. ``sample_period``: of the outcome's trace, s (1e-6 to 3600). ``progress(seconds, line,
-        lines)`` is called about every 50 ms of virtual time and may look, not move.
+        lines)`` is called about every 50 ms of virtual time; it may read the rack, but not move it.
 
         InvalidInput with all ``problems``, each with line and column, if anything in the program is wrong: nothing
         moved.
-        Refused on a rack that has no axes, while an axis moves, and where an earlier program or :meth:`home` has lost a
-        position, until that axis is homed. What the machine did wrong is the outcome's ``error``.
+        Refused on a rack without axes, while an axis moves, and after an earlier program or :meth:`home` has
+        invalidated the position of an axis, until this axis is homed. A fault of the machine is the outcome's
+        ``error``.
         """
         given, name = _program(program, path, name, tools, block_delete)
         ran = _core.run(self._world, given, ticks_of(sample_period), profile, list(faults), progress)
@@ -255,27 +257,26 @@ class Rack:
         name: str | None = None,
         tools: str | os.PathLike[str] | None = None,
     ) -> None:
-        """Raises the errors of a part program on this rack, with all ``problems``;
+        """Checks a part program for this rack and raises its errors, with all ``problems``;
         moves nothing and takes no time. See :meth:`run`."""
         _core.check(self._world, _program(program, path, name, tools, block_delete)[0])
 
     def home(self, axes: str = "", *, type: int | None = None, timeout: float = 3600.0) -> Homing:
-        """Homes axes: ``"XY"``; ``""``: every axis that has one. ``type`` 1 to 4 instead of the
-        rack file's; ``timeout`` in s of each group. A failure is in the outcome's ``error``."""
+        """Homes axes: ``"XY"``; ``""``: every axis with a home switch. ``type``: homing method 1 to 4 instead of the
+        rack file's; ``timeout`` in s of each group. A failure is the outcome's ``error``."""
         return homing_of(*_core.home(self._world, axes, type, ticks_of(timeout)))
 
     # ---- recordings ----
 
     def record(self, *signals: str, period: float = 1e-3, max_samples: int = 1_000_000) -> Recording:
         """Starts to sample wires (``"c1.xdrive"``), values of cards (``"c1.x.LP"``) and quantities
-        (``"X.position_mm"``) each ``period`` s (1e-6 to 3600).
+        (``"X.position_mm"``) every ``period`` s (1e-6 to 3600).
 
             with rack.record("X.position_mm", "c1.x.LP") as recording:
                 rack.advance(1)
             recording.trace.plot()
 
-        Of more than ``max_samples`` instants every second one is dropped, and the period doubled. One recording at a
-        time.
+        Beyond ``max_samples`` instants, every second one is dropped and the period doubled. One recording at a time.
         InvalidInput, Refused.
         """
         return Recording(self._world, signals, ticks_of(period), max_samples, self.name)
@@ -292,17 +293,17 @@ class Rack:
     # ---- the whole rack ----
 
     def copy(self) -> Rack:
-        """An independent rack in the same state: the same calls have the same results in both.
-        Recordings stay with this one."""
+        """Returns an independent rack in the same state: the same calls have the same results in both.
+        Recordings stay with this rack."""
         return Rack(self._world.copy(), self.warnings)
 
     def snapshot(self) -> Snapshot:
-        """The state of the whole rack, for :meth:`restore`. The state of function libraries belongs to the host and
-        is not included."""
+        """Returns the state of the whole rack, for :meth:`restore`. The state of function libraries belongs to the host
+        and is not included."""
         return Snapshot(self._world.copy())
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Restores a state of this rack or of one of the same file, time included.
+        """Restores a state of this rack or of another one of the same file, including its time.
         Refused while a recording runs."""
         if snapshot._world.config() != self._world.config():
             raise Refused("The snapshot is of a rack of another kind; nothing was done.")
@@ -311,7 +312,7 @@ class Rack:
 
 def _text_of(path: str | os.PathLike[str]) -> str:
     try:
-        with open(path, encoding="utf-8", errors="replace", newline="") as file:  # a comment may be in anything
+        with open(path, encoding="utf-8", errors="replace", newline="") as file:  # comments may have any encoding
             return file.read()
     except OSError as error:
         raise FileError(f"{os.fspath(path)} cannot be read: {error.strerror}. Nothing was moved.") from None
@@ -324,7 +325,7 @@ def _program(
     tools: str | os.PathLike[str] | None,
     block_delete: bool,
 ) -> tuple[_core.Program, str]:
-    """A program with its files, and its name in messages."""
+    """Returns a program with its files, and its name in messages."""
     if (program is None) == (path is None):
         raise InvalidInput("A program is given as text or by its path, one of the two. Nothing was moved.")
     folder = "" if path is None else os.path.dirname(os.fspath(path)) or "."
@@ -342,11 +343,11 @@ class Snapshot:
 
     @property
     def time(self) -> float:
-        """The instant, s since the rack's start."""
+        """Instant of the snapshot, s since the rack's start."""
         return seconds_of(self._world.ticks())
 
     def hash(self) -> str:
-        """Equal states have equal hashes: 16 digits."""
+        """Returns the hash of the state, 16 digits; equal states have equal hashes."""
         return self._world.state_hash()
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""Recordings while a rack runs: samples for NumPy, waves for a file."""
+"""Recordings of a running rack: samples as NumPy arrays, waves written to a file."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _ENDS = (
 
 
 def unit_of(signal: str) -> str:
-    """The unit at the end of a quantity's name; ``""``: none."""
+    """Returns the unit at the end of a quantity's name; ``""``: none."""
     return next((unit for end, unit in _ENDS if signal.endswith(end)), "")
 
 
 class _Open:
-    """A recording that starts with its creation and ends with its block, or before."""
+    """A recording from its creation until it is stopped, at the latest at the end of its ``with`` block."""
 
     def __init__(self, world: _core.RackHandle) -> None:
         self._world = world
@@ -61,7 +61,7 @@ class Recording(_Open):
         return self
 
     def stop(self) -> Trace:
-        """Ends the recording, with a last sample at this instant."""
+        """Ends the recording with a last sample at this instant."""
         if self._trace is None:
             ticks, signals = self._world.end_samples()
             self._trace = Trace(

@@ -1,4 +1,4 @@
-"""Registers and their fields, of virtual cards and of real ones."""
+"""Registers and their fields, of virtual and real cards."""
 
 from __future__ import annotations
 
@@ -57,8 +57,8 @@ class Word(int):
 class Register:
     """One register of a card, or of one of its channels.
 
-    Its fields are attributes, read without side effects: ``card.RR0.DRV``. ``read`` and ``write`` are accesses of the
-    bus: they have all side effects and take the card's bus time.
+    Its fields are attributes, read without side effects: ``card.RR0.DRV``. ``read`` and ``write`` are bus accesses:
+    they have all side effects and take the card's bus time.
     """
 
     __slots__ = ("_card", "_reg", "_name")
@@ -70,7 +70,7 @@ class Register:
 
     @property
     def name(self) -> str:
-        """Its name in the card's reference page; of a channel with a prefix."""
+        """Its name in the card's reference page; for a register of a channel with its prefix: ``"x.RR1"``."""
         return self._name
 
     @property
@@ -90,16 +90,16 @@ class Register:
 
     @property
     def access(self) -> str:
-        """``"read"``, ``"write"``, or ``"read_clears"``: reading it clears it."""
+        """``"read"``, ``"write"``, or ``"read_clears"``: reading the register clears it."""
         return str(self._reg["access"])
 
     def peek(self) -> Word:
-        """Returns the register's value without side effects; takes no time. InvalidInput where the card keeps no such
-        word."""
+        """Returns the register's value without side effects; takes no time. InvalidInput if the card does not store
+        it."""
         return Word(self._card.peek(self._name), self._reg)
 
     def read(self) -> Word:
-        """Reads it over the bus, with all effects; of a register per channel: that of the channel selected on the
+        """Reads it over the bus, with all side effects. A register per channel is read for the channel selected on the
         card."""
         if self.access == "write":
             raise Refused(
@@ -108,8 +108,8 @@ class Register:
         return Word(self._card.read(self.offset, self._bits()), self._reg)
 
     def write(self, value: int | None = None, **fields: int) -> None:
-        """Writes it over the bus, with all effects: a word (0 to 2**width - 1), fields by their names,
-        or fields over a word."""
+        """Writes it over the bus, with all side effects: a word (0 to 2**width - 1), fields by their names,
+        or a word with some of its fields replaced."""
         if self.access != "write":
             raise Refused(f"Register {self._name} can only be read; nothing was written.")
         word = 0 if value is None else int(value)
@@ -195,19 +195,19 @@ class MappedCard(ABC):
 
     @abstractmethod
     def peek(self, name: str) -> int:
-        """A register by its name, without any effect."""
+        """Returns a register by its name, without side effects."""
 
     @abstractmethod
     def read(self, offset: int, bits: int = 16) -> int:
-        """One access, with all effects."""
+        """Makes one read access with all side effects."""
 
     @abstractmethod
     def write(self, offset: int, value: int, bits: int = 16) -> None:
-        """One access, with all effects."""
+        """Makes one write access with all side effects."""
 
     @abstractmethod
     def _subject(self) -> str:
-        """The card at the begin of a sentence."""
+        """Returns the name of the card for the start of a sentence."""
 
     def __setattr__(self, name: str, value: int) -> None:
         reg = self._registers.get(name.lower())

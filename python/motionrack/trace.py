@@ -1,4 +1,4 @@
-"""Values over time as NumPy arrays, and their picture."""
+"""Signals over time as NumPy arrays, and their pictures."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Trace(Mapping[str, Values]):
 
     @property
     def ticks(self) -> npt.NDArray[np.int64]:
-        """Instants since the rack's start, whole ticks of 100 ps, never falling."""
+        """Instants since the rack's start, whole ticks of 100 ps, non-decreasing."""
         return self._ticks
 
     @property
@@ -79,11 +79,11 @@ class Trace(Mapping[str, Values]):
         return len(self._signals)
 
     def hash(self) -> str:
-        """The hash of the rack's event trace when this one ended: 16 digits.
+        """Returns the hash of the rack's event trace at the end of this trace: 16 digits.
 
-        Every change of a wire and every condition since the start of the rack is in it, at its tick of 100 ps, also
-        without recording: the same programs on the same rack have the same hash, in C++, C, on the command line and
-        here.
+        It covers every change of a wire and every condition since the start of the rack, with its tick of 100 ps, also
+        without recording: the same programs on the same rack have the same hash in C++, C, Python and on the command
+        line.
         """
         return self._trace_hash
 
@@ -94,7 +94,7 @@ class Trace(Mapping[str, Values]):
     # ---- pictures ----
 
     def _charts(self, names: tuple[str, ...]) -> list[tuple[str, list[str]]]:
-        """Signals to draw: by units, in the order of the names; all signals if none are given."""
+        """Returns the signals to draw, grouped by units in the order of the names; all signals if none are given."""
         charts: dict[tuple[str, str], list[str]] = {}
         for name in [self._name(each) for each in names] or list(self._signals):
             kind = name.rsplit(".", 1)[-1] if self._units.get(name) else name
@@ -102,7 +102,7 @@ class Trace(Mapping[str, Values]):
         return [(f"{kind}, {unit}" if unit else kind, members) for (kind, unit), members in charts.items()]
 
     def svg(self, *names: str, width: int = 720, height: int | None = None) -> str:
-        """A picture of these signals (of all if none are named) by the project's own writer:
+        """Returns a picture of these signals (of all if none are named), drawn without matplotlib:
         SVG, 100 to 10000 pixels."""
         charts = self._charts(names)
         drawn = [
@@ -122,8 +122,8 @@ class Trace(Mapping[str, Values]):
     def plot(self, *names: str, path: str | None = None) -> Any:
         """Draws these signals (all if none are named) one below the other over s.
 
-        With matplotlib: its figure, saved to ``path`` if one is given. Without: the trace itself, which a notebook
-        shows as :meth:`svg`; ``path`` then ends in ``.svg``.
+        With matplotlib: returns its figure, saved to ``path`` if given. Without: returns the trace itself, which a
+        notebook shows as :meth:`svg`; ``path`` must then end in ``.svg``.
         """
         try:
             from matplotlib.figure import Figure  # type: ignore[import]

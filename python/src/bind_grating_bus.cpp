@@ -15,7 +15,7 @@ namespace {
 namespace gb = grating_bus;
 using Grating = BoundDriver<gb::GratingCard>;
 
-/// (sequence, ticks of simulated time, counts)
+/// Returns (sequence, ticks of simulated time, counts).
 std::tuple<std::uint32_t, std::int64_t, py::array_t<std::int64_t>> reported(const gb::Reading& reading) {
     const auto counts = reading.counts();
     return {reading.frame.sequence, reading.frame.time,

@@ -9,7 +9,7 @@ namespace motionrack::python {
 
 namespace {
 
-/// (error or None, text, JSON, {axis: SVG})
+/// Returns (error or None, text, JSON, {axis: SVG}).
 py::tuple reported(const rack::HomingOutcome& outcome) {
     py::object error = py::none();
     if (!outcome.ended) {

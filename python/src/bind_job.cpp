@@ -39,7 +39,7 @@ std::string letter_of(int index) {
     return std::string(1, control::axis_letters[static_cast<std::size_t>(index)]);
 }
 
-/// (ticks, {signal: values}) recorded by the monitor.
+/// Returns (ticks, {signal: values}) recorded by the monitor.
 py::tuple samples_of(const Ran& ran) {
     const rack::Monitor& monitor = ran.world->job()->monitor();
     const std::vector<rack::MonitorSample>& samples = monitor.samples();

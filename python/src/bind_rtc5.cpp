@@ -97,7 +97,7 @@ void bind_lists(Rtc5Class& c) {
         py::arg("ListNo"), py::arg("Pos") = 0, "Starts list 1 or 2.");
 }
 
-/// Commands without parameters.
+/// Binds the commands without parameters.
 void bind_plain(Rtc5Class& c) {
     const auto plain = [&](const char* name, void (*function)(Engine&), const char* doc) {
         c.def(

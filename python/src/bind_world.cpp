@@ -87,8 +87,8 @@ py::list conditions_of(RackHandle& world) {
     return out;
 }
 
-/// The axes that channels of original MCX314s drive, each with its counter and its velocity limit in pulses. An
-/// MCX314As may set its counters by itself.
+/// Returns the axes driven by channels of original MCX314s, each with its counter and its velocity limit in pulses/s.
+/// Omits those of an MCX314As, which may set its counters by itself.
 py::dict channels_of(const rack::RackConfig& config) {
     py::dict out;
     for (const rack::PulseLink& link : config.pulse_links) {

@@ -47,7 +47,7 @@ class LiveCard final : public Host {
     /// Registers of a driver; a stop ends its writes. Allowed once: a second driver would not know the settings of the
     /// first. Throws refused.
     void claim(const std::string& driver);
-    /// The card, of this kind; for a driver. Throws refused if it is of another one, or closed.
+    /// Returns the card for the driver `who`. Throws refused if it is of another kind, or closed.
     template <class Device>
     Device& device(const char* who) const {
         auto* const own = dynamic_cast<Device*>(&open_device());

@@ -1,4 +1,4 @@
-// Real cards by kind.
+// Opens, reads, writes and stops real cards of each kind.
 #include <fmt/format.h>
 
 #include <motionrack/rack/databoard4002_card.hpp>
@@ -23,7 +23,7 @@ Result<std::unique_ptr<LiveDataboard4002>> LiveDataboard4002::open(const live::P
     return std::unique_ptr<LiveDataboard4002>(new LiveDataboard4002(std::move(port), host, select));
 }
 
-/// Sends Q through the port itself.
+/// Sends Q through the unguarded port, because a stop blocks the guarded one.
 Result<void> LiveDataboard4002::stop() {
     databoard4002::DriverSettings settings;
     settings.select = select_;

@@ -1,4 +1,4 @@
-// A real card as LiveCard sees it, one class a kind: accesses, the stop, and what the drivers use.
+// Interface of LiveCard to a real card, one class per kind of card: accesses, the stop, and the ports of drivers.
 //
 //   LiveCard ──► LiveDevice ──► LiveMcx314 ──► live::CardPort          registers of 16 bits
 //                          └──► LiveDataboard4002 ──► live::ByteCardPort   ports of 8 bits
@@ -20,7 +20,7 @@ class LiveDevice {
     virtual ~LiveDevice() = default;
     virtual const live::LivePort& port() const = 0;
     virtual live::LivePort& port() = 0;
-    /// Bits of an access.
+    /// Returns the width of an access: 8 or 16 bits.
     virtual int width() const = 0;
     virtual std::uint16_t read(std::uint32_t offset) = 0;
     /// Writes nothing while `host` requests a stop.

@@ -69,7 +69,7 @@ void SampleTable::change(std::size_t index, std::int64_t value, Instant at) {
     }
 }
 
-/// Returns false for a second row of an instant, and for those between the rows that are kept.
+/// Begins a row. Returns false for a second row at the same instant, and for rows that are dropped.
 bool SampleTable::begin_row(Instant at) {
     if (!ticks_.empty() && at.count() == ticks_.back()) return false;
     if (++skipped_ < every_ && !ticks_.empty()) return false;

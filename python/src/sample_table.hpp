@@ -13,8 +13,8 @@
 
 namespace motionrack::python {
 
-/// Channels to be read between runs; before them one that begins a row. Errors: invalid_input, listing the valid names,
-/// if a name is not that of a wire, a card value or a part quantity.
+/// Returns a channel that begins a row, then the channels of these names, to be read between runs. Errors:
+/// invalid_input, listing the valid names, if a name is not that of a wire, a card value or a part quantity.
 Result<std::vector<rack::SampledChannel>> sampled_channels(rack::Rack& rack, const rack::WireAccess& context,
                                                            const std::vector<std::string>& names);
 

@@ -1,4 +1,4 @@
-// The gate of the motion thread.
+// Gate at which the motion thread waits until Python allows more time.
 #include <chrono>
 #include <python/src/stepped_machine.hpp>
 

@@ -1,8 +1,8 @@
-"""The laws of sessions around every rack and machine that a test opens: python -m laws TESTS... runs these tests.
+"""Checks the laws of sessions in every rack and machine that a test opens: python -m laws TESTS... runs these tests.
 
 Counters change with pulses, nothing moves after a program or homing, nor in an error stop, a program keeps
-the velocity limits, and time is as it was asked for. A breach is an AssertionError in the call that shows it. C
-programs have the same laws in tests/invariants/session_laws.hpp.
+the velocity limits, and time advances as requested. A violation raises an AssertionError in the call that detects it.
+tests/invariants/session_laws.hpp has the same laws for C programs.
 """
 
 from __future__ import annotations
@@ -15,15 +15,15 @@ from typing import Any
 
 from motionrack import _core
 
-LOOK_BEHIND = 1_000_000_000  # ticks, 0.1 s: what goes on after a program moves within this time
-MIN_SECONDS = 0.01  # of a mean velocity
+LOOK_BEHIND = 1_000_000_000  # ticks, 0.1 s: motion that continues after a program is visible within this time
+MIN_SECONDS = 0.01  # minimum interval of a mean velocity
 STANDS_WITHIN = 0.05  # mm or deg: a servo that holds its position oscillates
 
 checks: list[str] = []  #: what was checked so far
 
 
 class Picture:
-    """A rack at one instant, as its own queries show it."""
+    """State of a rack at one instant, read by its own queries."""
 
     def __init__(self, world: _core.RackHandle) -> None:
         self.channels: dict[str, tuple[str, str, float]] = world.config()["channels"]
@@ -33,20 +33,20 @@ class Picture:
 
 
 def check_counters(before: Picture, now: Picture) -> None:
-    """Between the two only time passed: counters, of 32 bits, went by the pulses."""
+    """Asserts that counters, which have 32 bits, changed by the pulses sent between the two states."""
     for axis, sent in sent_between(before, now).items():
         counted = now.counters[axis] - before.counters[axis]
         assert (sent - counted) % 2**32 == 0, f"axis {axis} was sent {sent} pulses and its counter went by {counted}"
 
 
 def check_rest(before: Picture, now: Picture) -> None:
-    """Nothing was ordered between the two: nothing moved."""
+    """Asserts that nothing moved between two states without a command between them."""
     for axis, sent in sent_between(before, now).items():
         assert sent == 0, f"axis {axis} was sent {sent} pulses without an order"
 
 
 def check_velocities(before: Picture, now: Picture) -> None:
-    """The mean velocities between the two, with the rounding of whole pulses."""
+    """Asserts that the mean velocities between the two states, rounded to whole pulses, are within their limits."""
     seconds = (now.ticks - before.ticks) * 1e-10
     for axis, sent in sent_between(before, now).items():
         limit = now.channels[axis][2]
@@ -54,7 +54,7 @@ def check_velocities(before: Picture, now: Picture) -> None:
 
 
 def check_error_stop(before: dict[str, Any], now: dict[str, Any]) -> None:
-    """The status of a machine around a time in which nothing was commanded: an error stop holds."""
+    """Asserts that a machine without a command between two statuses stays in an error stop and does not move."""
     assert now["ticks"] >= before["ticks"], f"time went back from {before['ticks']} to {now['ticks']}"
     if before["state"] != "error stop":
         return
@@ -65,17 +65,17 @@ def check_error_stop(before: dict[str, Any], now: dict[str, Any]) -> None:
 
 
 def sent_between(before: Picture, now: Picture) -> dict[str, int]:
-    """Pulses of each axis."""
+    """Returns the pulses sent to each axis between two states."""
     return {axis: now.pulses[axis] - before.pulses[axis] for axis in now.channels}
 
 
 def put(owner: Any, name: str, call: Callable[..., Any]) -> None:
-    """Replaces a call by one that has its documentation."""
+    """Replaces a function by another with the same documentation."""
     setattr(owner, name, functools.wraps(getattr(owner, name))(call))
 
 
 def install_on_racks() -> None:
-    """Puts the laws around the calls of a rack that let time pass."""
+    """Checks the laws in the calls of a rack that advance time."""
     pass_time: Callable[[_core.RackHandle, int], None] = _core.RackHandle.advance
     run: Callable[..., Any] = _core.run
     home: Callable[..., Any] = _core.home
@@ -123,7 +123,7 @@ def install_on_racks() -> None:
 
 
 def install_on_machines() -> None:
-    """Puts the laws around the call of a machine that lets time pass."""
+    """Checks the laws in the call of a machine that advances time."""
     operate, end_stop = _core.SteppedMachine.advance, _core.SteppedMachine.reset
     reset: weakref.WeakSet[_core.SteppedMachine] = weakref.WeakSet()  # since time passed
 

@@ -22,8 +22,8 @@ PROGRAM = BUILD / "bin" / "motionrack"
 
 @dataclass(frozen=True)
 class Form:
-    """An example's own form: commands with their environment, and what it prints (a file of its folder;
-    None: not compared)."""
+    """Original form of an example: its commands, and the file of its folder with the expected output
+    (None: not compared)."""
 
     commands: list[list[str]]
     expected: str | None = "expected.txt"
@@ -76,7 +76,7 @@ FORMS = {
 
 
 def history(folder: str, commands: list[list[str]], environment: dict[str, str]) -> tuple[str, str]:
-    """What the commands print, and the histories of their racks."""
+    """Runs the commands; returns their output and the event traces of their racks."""
     with tempfile.TemporaryDirectory() as scratch:
         told = Path(scratch) / "history"
         printed = ""

@@ -1,4 +1,4 @@
-"""The laws of sessions: each detects a history that violates it, and they are around what these tests open."""
+"""The laws of sessions: each detects a history that violates it, and the racks of these tests are checked."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ CARD = 'card.c1 = "mcx314"'
 
 
 def stopped(ticks: int, state: str, x: float) -> dict[str, Any]:
-    """What a machine says of itself."""
+    """Returns a status of a machine."""
     return {"ticks": ticks, "state": state, "axes": {"X": {"true_position": x}}}
 
 

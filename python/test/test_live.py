@@ -1,7 +1,7 @@
-"""Real cards from Python, with a plain file in the card's place: which words are written, and what stops it.
+"""Real cards from Python, with a plain file in place of the card: the words written, and the stops.
 
-A file has one word where a card has two, WR0 and RR0. So its status is the word that was written last: axes seem to
-drive after a NOP (0Fh), and a stop shows as 0F27h.
+A file has one word where a card has two registers, WR0 and RR0. Its status is therefore the last written word: axes
+seem to drive after a NOP (0Fh), and a stop reads as 0F27h.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class OnAFile(unittest.TestCase):
 
     @contextlib.contextmanager
     def once_it_waits(self, act: Act) -> Iterator[None]:
-        """Does ``act`` when a call waits for the card, and lets the axes come to rest when they are stopped."""
+        """Calls ``act`` while a call waits for the card; reports the axes at standstill after they are stopped."""
         ended = threading.Event()
         actor = threading.Thread(target=act)
 

@@ -32,7 +32,7 @@ def ready() -> Machine:
 
 
 def operated() -> tuple[str, float, str]:
-    """A program with a hold, and a jog."""
+    """Runs a program with a feed hold, then a jog."""
     with ready() as machine:
         machine.start_program(TEXT, "there.ngc")
         machine.advance(0.5)

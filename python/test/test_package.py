@@ -1,4 +1,4 @@
-"""The package as such: stubs, docstrings with units, types, and what its pages promise."""
+"""The package as a whole: stubs, docstrings with units, types, and the statements of its pages."""
 
 from __future__ import annotations
 

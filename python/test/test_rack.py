@@ -17,14 +17,14 @@ Acts = tuple[Callable[[], object], ...]
 
 
 def command(card: motionrack.Card, axes: int, code: int, value: int = 0) -> None:
-    """A data command of the MCX314."""
+    """Writes data and a command of the MCX314 for the axes of a mask."""
     card.WR7 = value >> 16 & 0xFFFF
     card.WR6 = value & 0xFFFF
     card.WR0 = axes << 8 | code
 
 
 def drive(card: motionrack.Card, pulses: int) -> None:
-    """X goes so many pulses at 40,000 a second."""
+    """Drives X by this number of pulses at 40,000 pulses/s."""
     for code, value in ((0x00, 800000), (0x02, 400), (0x04, 100), (0x05, 4000), (0x09, 0), (0x06, pulses), (0x20, 0)):
         command(card, 1, code, value)
 

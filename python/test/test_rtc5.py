@@ -22,14 +22,14 @@ HEADER = ROOT / "motionrack" / "frontends" / "rtc5sim" / "rtc5sim.h"
 K = 5184  # bits/mm
 Acts = tuple[Callable[[], object], ...]
 PARAM_ERROR, BUSY, REJECTED = 16, 32, 64
-# What takes a pointer in C, and a text or a sequence, or gives its answer, in Python; matrix: (head, matrix, at_once).
+# Functions with a pointer in C and a text, a sequence or a return value in Python; matrix: (head, matrix, at_once).
 OTHERWISE = {"set_mcbsp_out_ptr", "get_waveform", "set_matrix"}
-# Begun before the names of the header were taken over.
+# Methods whose parameters have other names than in the header.
 NAMED_OTHERWISE = {"set_offset", "set_angle", "set_scale", "config_list", "set_jump_speed_ctrl", "set_mark_speed_ctrl"}
 
 
 def declared() -> dict[str, list[tuple[str, str]]]:
-    """The functions of the header with their parameters (type, name)."""
+    """Returns the functions of the header with their parameters (type, name)."""
     found = {}
     for name, parameters in re.findall(r"^RTC5_API [^(]*\b(\w+)\(([^)]*)\);", HEADER.read_text("utf-8"), re.MULTILINE):
         each = [parameter.strip() for parameter in parameters.split(",") if parameter.strip() != "void"]
@@ -46,7 +46,7 @@ def rack_of(belt: str = "") -> tuple[Rack, motionrack.Rtc5]:
 
 
 def run(rtc: motionrack.Rtc5, *commands: Callable[[], None]) -> None:
-    """A list of these commands, to its end."""
+    """Executes a list of these commands to its end."""
     rtc.set_start_list(1)
     for command in commands:
         command()
@@ -330,7 +330,7 @@ class Files(unittest.TestCase):
         self.rack, self.rtc = rack_of()
 
     def file(self, k: int = K, program: int = 403, flat: bool = False, damage: tuple[int, ...] = ()) -> str:
-        """A table that is 1:1 but for 1000 bits in X."""
+        """Makes a correction table that is 1:1 except for an offset of 1000 bits in X."""
         header = np.zeros(16, "<i4")
         header[1], header[10] = k, program
         steps = np.arange(257) * 4096

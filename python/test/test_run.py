@@ -1,4 +1,4 @@
-"""Part programs from Python: outcomes, traces, problems, faults, homing; the command line is the referee."""
+"""Part programs from Python: outcomes, traces, problems, faults, homing, compared with those of the command line."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TEXT = "G21 G90 G64 P0.02\nG1 X10 Y5 F600\nG3 X20 Y15 I0 J10\nG0 X0 Y0\nM2\n"
 
 
 def referee(*words: str, text: str = TEXT) -> subprocess.CompletedProcess[str]:
-    """The command line with the same program."""
+    """Runs the program by the command line."""
     return subprocess.run([PROGRAM, *words], input=text, capture_output=True, text=True, timeout=120, check=False)
 
 
@@ -82,7 +82,7 @@ class Outcomes(unittest.TestCase):
         self.assertIn("x.velocity", trace)
         with self.assertRaises(InvalidInput):
             trace["q.position"]
-        # The speed is that of the pulses; over a slow move it is the slope of the position.
+        # The velocity is that of the pulses; in a slow move it equals the slope of the position.
         slow = (trace.time > 0.4) & (trace.time < 0.9)
         np.testing.assert_allclose(
             np.gradient(trace["x.position"], trace.time)[slow].mean(), trace["x.velocity"][slow].mean(), rtol=0.01

@@ -1,4 +1,4 @@
-"""Recordings: what is recorded is what a look at each instant would have seen; pictures with and without matplotlib."""
+"""Recordings: samples equal the values read at each instant; pictures with and without matplotlib."""
 
 from __future__ import annotations
 

@@ -96,7 +96,7 @@ class Threads(unittest.TestCase):
         self.assertEqual(found, [alone] * 4)
 
     def test_ctrl_c_ends_a_run_and_the_rack_continues_afterwards(self) -> None:
-        """In a process of its own, which tells when it runs; endless programs end by nothing else."""
+        """Runs in a separate process, which sends itself Ctrl-C; nothing else ends its endless programs."""
         program = r"""
 import signal, threading, motionrack, os
 signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the picture of docs/howto/python.md by the project's own writer:
+"""Draws the picture of docs/howto/python.md without matplotlib:
 python3 python/tools/picture.py docs/pictures/python_trace.svg."""
 
 import sys

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes motionrack/_core.pyi from the module itself, whose signatures pybind11 knows:
+"""Writes motionrack/_core.pyi from the built module, using the signatures that pybind11 stores in it:
 PYTHONPATH=BUILD/python python3 python/tools/stubs.py."""
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def typed(text: str) -> str:
 
 
 def parameters(text: str) -> str:
-    """Accepts any sequence or array."""
+    """Returns the type of an argument, which may be any sequence or array."""
     text = re.sub(r"npt\.NDArray\[[\w.]+\]", "npt.ArrayLike", typed(text))
     text = text.replace("list[", "Sequence[")
     return re.sub(r"^self: \w+", "self", text)
