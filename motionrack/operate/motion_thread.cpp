@@ -184,9 +184,9 @@ void Machine::drive() {
 void Machine::failed(const Error& error) {
     failures_.push_back({publisher_.at_work(), error.text()});
     publisher_.tools_off();  // at once; only the axes take time
-    programs_.stream().stop();
     manual_.jogs().let_go();
     if (!manual_.jogs().any() && !programs_.stream().has_work()) return enter_failures();
+    programs_.stream().stop();
     pending_stop_.request();
     publisher_.enter(MachineState::stopping, error.text());
 }
