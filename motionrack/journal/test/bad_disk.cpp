@@ -24,7 +24,7 @@ struct Record {
     std::condition_variable released;
     bool held = false;
     BadDisk::Plan plan;
-    std::int64_t count = 0;
+    std::int64_t count = 0, reads = 0;
     std::vector<Call> calls;
 };
 Record record;
@@ -51,6 +51,14 @@ File* file_of(sqlite3_file* one) {
 }
 sqlite3_file* real_of(sqlite3_file* one) {
     return file_of(one)->real();
+}
+
+int on_read(sqlite3_file* one, void* to, int count, sqlite3_int64 offset) {
+    {
+        const std::lock_guard<std::mutex> alone(record.lock);
+        if (++record.reads == record.plan.nth_read) return SQLITE_IOERR_READ;
+    }
+    return real_of(one)->pMethods->xRead(real_of(one), to, count, offset);
 }
 
 int on_write(sqlite3_file* one, const void* bytes, int count, sqlite3_int64 offset) {
@@ -94,9 +102,7 @@ int on_sync(sqlite3_file* one, int) {
 const sqlite3_io_methods methods = {
     2,
     [](sqlite3_file* f) { return real_of(f)->pMethods->xClose(real_of(f)); },
-    [](sqlite3_file* f, void* to, int n, sqlite3_int64 at) {
-        return real_of(f)->pMethods->xRead(real_of(f), to, n, at);
-    },
+    on_read,
     on_write,
     on_truncate,
     on_sync,
@@ -153,7 +159,7 @@ void put(std::string& file, const Call& call, std::size_t count) {
 BadDisk::BadDisk(const Plan& plan) {
     record.held = false;
     record.plan = plan;
-    record.count = 0;
+    record.count = record.reads = 0;
     record.calls.clear();
     under = sqlite3_vfs_find(nullptr);
     disk = *under;
@@ -178,6 +184,11 @@ void BadDisk::hold(bool on) {
 std::int64_t BadDisk::calls() const {
     const std::lock_guard<std::mutex> alone(record.lock);
     return record.count;
+}
+
+std::int64_t BadDisk::reads() const {
+    const std::lock_guard<std::mutex> alone(record.lock);
+    return record.reads;
 }
 
 void BadDisk::write_state(std::int64_t calls, std::mt19937& random, const std::string& from,

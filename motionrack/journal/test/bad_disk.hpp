@@ -1,5 +1,5 @@
-// Disk between SQLite and the system, whose nth writing call fails, is torn or is lost. Records all writing calls, from
-// which the state after a power loss at any point can be reconstructed.
+// Disk between SQLite and the system, whose nth writing call fails, is torn or is lost, or whose nth reading call
+// fails. Records all writing calls, from which the state after a power loss at any point can be reconstructed.
 #pragma once
 
 #include <sqlite3.h>
@@ -26,7 +26,8 @@ class BadDisk {
     };
     struct Plan {
         Fault fault = Fault::none;
-        std::int64_t nth = 0;  ///< from 1
+        std::int64_t nth = 0;       ///< from 1
+        std::int64_t nth_read = 0;  ///< reading call that fails, from 1; 0: none
     };
     BadDisk() : BadDisk(Plan{}) {}
     explicit BadDisk(const Plan& plan);
@@ -35,6 +36,7 @@ class BadDisk {
     BadDisk& operator=(const BadDisk&) = delete;
 
     std::int64_t calls() const;
+    std::int64_t reads() const;
     /// Blocks writing calls while set.
     void hold(bool on);
     /// Writes the files as found after a power loss following the call `calls`. Synced data is present; each later

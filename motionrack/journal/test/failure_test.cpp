@@ -69,6 +69,25 @@ TEST_F(JournalOnABadDisk, IsRefusedIfItsStartCannotBeWritten) {
     EXPECT_TRUE(open()->before()->clean) << "the refused start has left nothing";
 }
 
+/// One reading call fails after another, until none is left to fail.
+TEST_F(JournalOnABadDisk, IsRefusedIfItsStructureCannotBeRead) {
+    std::string said;
+    bool is_read = false;
+    for (int nth = 1; !is_read; ++nth) {
+        SCOPED_TRACE(nth);
+        remove();
+        EXPECT_TRUE(open()->close());
+        change("PRAGMA journal_mode = DELETE");  // without a log each statement begins with a reading call
+        const BadDisk disk({BadDisk::Fault::none, 0, nth});
+        const auto opened = Journal::open(path_);
+        is_read = disk.reads() < nth;
+        if (opened) continue;
+        EXPECT_THAT(opened.error().message, HasSubstr(path_));
+        said += opened.error().message;
+    }
+    EXPECT_THAT(said, HasSubstr("is damaged: disk I/O error. Nothing was started."));
+}
+
 TEST_F(JournalOnABadDisk, DetectsThatOneOfItsFilesWasDeletedReplacedOrTruncated) {
     const auto copy_over = [this](const char* end) {
         fs::copy_file(path_ + end, path_ + ".copy");
