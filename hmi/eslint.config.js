@@ -1,4 +1,4 @@
-// The rules of the page's sources: `npm run lint` asks for them, and a warning counts as an error.
+// ESLint rules of the page's sources, checked by `npm run lint`; a warning counts as an error.
 import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import js from '@eslint/js';
@@ -6,10 +6,10 @@ import { defineConfig } from 'eslint/config';
 import hooks from 'eslint-plugin-react-hooks';
 import ts from 'typescript-eslint';
 
-/** For every file: what holds in the whole tree. */
+/** Rules for every file. */
 const house = {
   eqeqeq: ['error', 'smart'],
-  // prettier breaks no comment and no text.
+  // prettier does not wrap comments and strings.
   'max-len': ['error', { code: 120, ignoreStrings: true, ignoreTemplateLiterals: true }],
   'max-lines-per-function': ['error', { max: 60 }],
   'no-console': 'error',
@@ -25,22 +25,22 @@ const typed = {
   '@typescript-eslint/no-shadow': 'error',
   '@typescript-eslint/switch-exhaustiveness-check': 'error',
 
-  // A handler in one line, `onClick={() => order('hold')}`, is not read for its value.
+  // Allows handlers in one line, `onClick={() => order('hold')}`, whose value is not used.
   '@typescript-eslint/no-confusing-void-expression': [
     'error',
     { ignoreArrowShorthand: true, ignoreVoidOperator: true },
   ],
-  // Letters of axes are plain ASCII: the places in a string of them are the axes.
+  // Allows spreading strings of axis letters, which are ASCII: each character is an axis.
   '@typescript-eslint/no-misused-spread': ['error', { allow: ['string'] }],
-  // One key is left out of an object by naming it beside the rest.
+  // Allows omitting a key from an object by naming it next to the rest.
   '@typescript-eslint/no-unused-vars': ['error', { ignoreRestSiblings: true }],
-  // An empty sentence is none: `why || undefined` and `mayOperate() || '...'` mean it.
+  // Allows `why || undefined` and `mayOperate() || '...'`, where an empty sentence means none.
   '@typescript-eslint/prefer-nullish-coalescing': ['error', { ignorePrimitives: { string: true } }],
-  // Numbers and switches read well in a text.
+  // Allows numbers and booleans in template strings.
   '@typescript-eslint/restrict-template-expressions': ['error', { allowBoolean: true, allowNumber: true }],
 };
 
-/** Of node, and of the page where a browser test looks into it. */
+/** Globals of node, and of the page for browser tests that run code in it. */
 const names = (...all) => Object.fromEntries(all.map((name) => [name, 'readonly']));
 const node = names('fetch', 'performance', 'process', 'setTimeout', 'URL');
 const page = names('document', 'Event', 'getComputedStyle', 'innerWidth', 'localStorage', 'location', 'window');
@@ -60,13 +60,13 @@ export default defineConfig(
     rules: typed,
   },
   {
-    // Each test loads modules anew: their types are named by the module.
+    // Each test imports modules dynamically, so their types are named by import().
     files: ['test/unit/**/*.ts'],
     rules: { '@typescript-eslint/consistent-type-imports': ['error', { disallowTypeAnnotations: false }] },
   },
   {
     files: ['src/**/*.{ts,tsx}'],
-    // preact's hooks have the rules of React's.
+    // The rules of React's hooks also apply to preact's.
     plugins: { 'react-hooks': hooks },
     rules: { 'react-hooks/rules-of-hooks': 'error', 'react-hooks/exhaustive-deps': 'error' },
   },

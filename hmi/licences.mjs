@@ -1,13 +1,13 @@
-// The licences of all that is bundled into the page, as licences.txt beside it. A part without a licence's text ends
-// the build.
+// Writes licences.txt, the licences of all parts bundled into the page. A part without a licence text makes the build
+// fail.
 import { existsSync, readdirSync, readFileSync } from 'node:fs';
 
 const read = (path) => readFileSync(path, 'utf8');
 
-/** Fonts come by style sheets, which are no modules for the bundler; so all of package.json is in the list. */
+/** All dependencies of package.json; fonts come by style sheets, which the bundler does not list as modules. */
 const wanted = () => Object.keys(JSON.parse(read('package.json')).dependencies);
 
-/** `/x/node_modules/@preact/signals/dist/signals.mjs` is of `@preact/signals`; `\0vite/..` is the bundler's own. */
+/** Package of a module: `@preact/signals` for `/x/node_modules/@preact/signals/dist/a.mjs`, `vite` for `\0vite/..`. */
 function packageOf(id) {
   if (id.startsWith('\0vite/')) return 'vite';
   const parts = id.split('/node_modules/');
@@ -21,7 +21,7 @@ function licenceOf(name) {
   const file = existsSync(folder) && readdirSync(folder).find((each) => /^licen[cs]e(\.(md|txt))?$/i.test(each));
   if (!file)
     throw new Error(`${folder} has no file with its licence: the page must not have it. Choose another package.`);
-  // Vite's file goes on with what it was built from, of which nothing is in the page.
+  // The rest of Vite's file has the licences of its own dependencies, which are not part of the page.
   return read(`${folder}/${file}`).split('# Licenses of bundled dependencies')[0].trim();
 }
 

@@ -1,4 +1,4 @@
-// How the page is built: everything local, nothing inline, so that the strictest content policy holds.
+// Build of the page: all files are local and nothing is inline, as the strict content security policy requires.
 import { defineConfig } from 'vite';
 import { licences } from './licences.mjs';
 

@@ -96,7 +96,7 @@ function View(): JSX.Element {
   }
 }
 
-/** 360 px: machine state and STOP. */
+/** View of a phone (from 360 px): machine state and STOP. */
 function Phone(): JSX.Element {
   return (
     <div class="view phone">

@@ -1,5 +1,5 @@
-// Accessibility and field use: axe-core on every view, sizes of targets, order of focus, live regions, themes, phone,
-// motion.
+// Accessibility and use on touch screens: axe-core on every view, sizes of targets, order of focus, live regions,
+// themes, phone, reduced motion.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -26,7 +26,7 @@ async function faults(tab) {
   );
 }
 
-/** What can be pressed and is in sight, with its size in CSS pixels. */
+/** Returns the visible elements that can be pressed, with their sizes in CSS pixels. */
 const targets = (tab, selector) =>
   tab.page.evaluate(
     (which) =>

@@ -1,4 +1,4 @@
-// A rack without axes: its cards are operated, and nothing offers to move an axis.
+// A rack without axes: its cards can be operated, and the page has no controls to move an axis.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { answered, call } from './library.mjs';
@@ -15,7 +15,7 @@ test('a rack without axes shows its cards in place of axes, and each works', asy
     for (const width of [1440, 760, 420]) {
       await tab.page.emulateMedia({ colorScheme: scheme });
       await tab.page.setViewportSize({ width, height: 900 });
-      await pause(400); // colours change within it
+      await pause(400); // until the transition of colours has ended
       await picture(tab, `cards-alone-${scheme}-${width}`);
     }
   await tab.page.setViewportSize({ width: 1440, height: 900 });

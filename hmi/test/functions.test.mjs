@@ -1,4 +1,4 @@
-// The functions of a card's library from the page: the service, a form, its answers, and STOP while a function waits.
+// Calls of a card's library functions from the page: the service, a form, its answers, and STOP while a function waits.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { answered, call, choose, driveX, panel } from './library.mjs';

@@ -1,4 +1,4 @@
-// Jogging: a lease renewed every 100 ms at most, ended by everything that could mean that nobody holds the key.
+// Jogging: a lease renewed at least every 100 ms, and ended by every event after which the key may not be held.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {

@@ -1,4 +1,4 @@
-// The keyboard, as its table says: every key, and the rules of where keys do not act.
+// Every key of the keyboard table, and the places in which keys have no effect.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {

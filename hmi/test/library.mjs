@@ -1,4 +1,4 @@
-// The ways of a user in the panel of a card's function library.
+// Actions of a user in the panel of a card's function library.
 export const panel = (tab) => tab.page.getByRole('region', { name: 'Functions of its library' });
 const calls = (tab) => panel(tab).getByRole('log', { name: 'Calls' });
 
@@ -19,7 +19,7 @@ export async function call(tab, name, texts = {}) {
     .click();
 }
 export const answered = (tab, text) => calls(tab).getByText(text).first().waitFor();
-/** 500 pulses of X, to their end. */
+/** Drives X by 500 pulses and waits for the end. */
 export async function driveX(tab) {
   await call(tab, 'TCurve_F', { m_Pulse: 500 });
   await answered(tab, 'X drives.');

@@ -99,7 +99,7 @@ test('a reload keeps the job running and shows it', async () => {
   const before = tab.status.program.line;
   await tab.page.reload();
   await tab.page.locator('main .view').first().waitFor();
-  tab.status = null; // what comes now is told to the page that was loaded again
+  tab.status = null; // accepts only statuses received after the reload
   await state(tab, 'moving');
   assert.ok(tab.status.program.runs && tab.status.program.line >= before);
   await tab.page.locator('.progress').getByText(tab.status.program.name).waitFor();

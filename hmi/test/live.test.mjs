@@ -1,5 +1,5 @@
-// A real card on the page, with a virtual one in its place that another process serves: where it is, what it shows in
-// service and without, and STOP.
+// A real card on the page, with a virtual one in its place that another process serves: its address, its panel in
+// service and without service, and STOP.
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import test from 'node:test';
@@ -19,7 +19,7 @@ import {
 
 const none = existsSync(LIVE_SERVER) ? false : 'live_server is not built: cmake -DMOTIONRACK_TESTS=ON';
 
-/** Null where this computer lets no program serve files. */
+/** Starts the server; returns null if this computer does not let programs serve files. */
 async function started() {
   try {
     return await startServer(RACKS.bench, { live: 'bench' });

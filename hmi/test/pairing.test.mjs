@@ -1,4 +1,4 @@
-// Pairing and roles: a code in the address, a code typed, a wrong one; what one may not do is disabled and says why.
+// Pairing and roles: a code in the address, a typed code, a wrong code; forbidden actions are disabled with a reason.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { openTab, command, RACKS, suite, tabOf, until } from './support.mjs';
@@ -6,7 +6,7 @@ import { openTab, command, RACKS, suite, tabOf, until } from './support.mjs';
 const all = suite(test, RACKS.axes, { pairing: true });
 let token = '';
 
-/** A pairing code of the program for somebody of that role. */
+/** Returns a pairing code of the program for this role. */
 async function invite(role) {
   if (token === '') token = (await command(all.server, 'pair', { code: all.server.code, name: 'test' })).token;
   return (await command(all.server, 'invite', { role }, token)).code;

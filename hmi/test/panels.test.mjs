@@ -1,5 +1,5 @@
-// The panels of the demonstration rack: each shows what its card or the machine really has; a picture of each is kept
-// in the build folder.
+// The panels of the demonstration rack: each shows the values of its card or of the machine. A picture of each is
+// stored in the build folder.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { answered, call } from './library.mjs';
@@ -62,7 +62,7 @@ test('a checked program shows its time, extents and path; a bad one its problems
   await done(tab);
 });
 
-/** Sets the clock as its panel does; the view is the operating one then. */
+/** Sets the clock by its panel; switches to the view `operate`. */
 async function setClock(tab, name) {
   await show(tab, 'operate');
   await panel(tab, 'Clock and E-stop input').getByRole('button', { name, exact: true }).click();
@@ -71,7 +71,7 @@ async function setClock(tab, name) {
 
 test('the MCX314 shows its counters, and they count', async () => {
   const tab = await at('operate');
-  // Acceleration lasts a second of the page's time, so that a busy browser shows it too.
+  // At 0.1 x the acceleration lasts a second of real time, so that a slow browser shows it, too.
   await setClock(tab, '0.1 ×');
   await show(tab, 'cards/motion');
   await until(() => tab.subscribed?.rate_hz === 100, 'the counters are asked for every 0.01 s');
@@ -306,7 +306,7 @@ test('an alarm is told, survives a reload, and is acknowledged', async () => {
     .waitFor();
   await show(tab, 'events');
   await panel(tab, 'Alarms').getByText('active, unacknowledged').waitFor();
-  // Each event is a row of the table, whatever its kind is called.
+  // Each event is displayed as a row of the table, for every name of its kind.
   const rows = await panel(tab, 'Events')
     .locator('tbody tr')
     .evaluateAll((all) => all.map((row) => getComputedStyle(row).display));

@@ -1,4 +1,4 @@
-// What all browser tests need: the program that serves the page, a browser, what the page sent, and the ways of a user.
+// Shared parts of the browser tests: the program that serves the page, a browser, the page's messages, user actions.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
@@ -10,11 +10,11 @@ import { chromium } from 'playwright-core';
 const here = dirname(fileURLToPath(import.meta.url));
 const BUILD = process.env.MOTIONRACK_BUILD ?? join(here, '../../build/release');
 export const PROGRAM = join(BUILD, 'bin/motionrack');
-/** Serves a virtual card to a program in the place of a real one; there where the tests of the tree are built. */
+/** Program that serves a virtual card in place of a real one; exists if the tests of the tree are built. */
 export const LIVE_SERVER = join(BUILD, 'tests/live/live_server');
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
 export const PICTURES = join(BUILD, 'pictures');
-/** Four axes whose positions are known at once; all kinds of card; an axis, and a card without one; no axis. */
+/** Racks: four axes with valid positions from the start; every card type; one axis and a card without axes; no axis. */
 export const RACKS = {
   axes: join(here, 'rack.toml'),
   all: join(here, '../../examples/15_panel/demonstration.toml'),
@@ -22,8 +22,8 @@ export const RACKS = {
   cards: join(here, 'cards.toml'),
 };
 
-/** Runs `motionrack serve`. Without pairing whoever comes may do everything. `live`: the card for which a served one
- * stands, as a real one. */
+/** Runs `motionrack serve`. Without pairing, every client has all rights. `live`: card in whose place a served one acts
+ * as a real card. */
 export async function startServer(rack = RACKS.axes, { pairing = false, live = '' } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'motionrack-page-'));
   const command = [
@@ -66,8 +66,8 @@ export async function startServer(rack = RACKS.axes, { pairing = false, live = '
 
 export const openBrowser = () => chromium.launch({ executablePath: CHROMIUM, args: ['--no-sandbox'] });
 
-/** A tab on the panel. `sent`: commands of this tab with their times; `subscribed`: what it asked to see; `troubles`:
- * what the browser complained of. */
+/** Opens a tab on the panel. `sent`: commands of this tab with their times; `subscribed`: its last subscription;
+ * `troubles`: errors of the browser. */
 export async function openTab(
   browser,
   server,
@@ -105,7 +105,7 @@ export async function tabOf(context, server, hash = '') {
   return tab;
 }
 
-/** Waits until `look` gives something true; says `what` if it never does. */
+/** Waits until `look` returns a true value and returns it; fails with `what` after `ms`. */
 export async function until(look, what, ms = 5000) {
   const end = performance.now() + ms;
   for (;;) {
@@ -116,7 +116,7 @@ export async function until(look, what, ms = 5000) {
   }
 }
 
-/** Opens a view, as its address does. */
+/** Opens a view by its address. */
 export const show = (tab, view) => tab.page.evaluate((to) => (location.hash = `#/${to}`), view);
 
 export const pause = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -125,7 +125,7 @@ export const named = (tab, command) => tab.sent.filter((one) => one.command === 
 export const state = (tab, ...names) =>
   until(() => names.includes(tab.status?.state), `state ${names.join(' or ')}, it is ${tab.status?.state}`);
 
-/** Sends a command as a program beside the page does; the answer. `token`: '' where whoever comes may do everything. */
+/** Sends a command over HTTP, independent of the page; returns the answer. `token`: '' for a server without pairing. */
 export async function command(server, name, fields = {}, token = '') {
   const answer = await fetch(`${server.address}api/${name}`, {
     method: 'POST',
@@ -137,7 +137,7 @@ export async function command(server, name, fields = {}, token = '') {
   return body;
 }
 
-/** Lets a belt go on that a STOP has brought to rest. */
+/** Restarts a belt after a STOP. */
 export async function startPart(server, part) {
   await command(server, 'take_control', { force: true });
   await command(server, 'reset');
@@ -146,8 +146,8 @@ export async function startPart(server, part) {
   await command(server, 'release_control');
 }
 
-/** STOP, the reset that it takes, and control given back. STOP ends the control of another session, as of a tab before
- * it was loaded again. */
+/** Sends STOP, resets it and releases control. Takes control first if another session has it, such as that of a tab
+ * before its reload. */
 export async function stopAndRelease(tab) {
   await tab.page.keyboard.press('Escape');
   await until(() => tab.status?.state === 'error stop', 'STOP holds the machine');
@@ -177,7 +177,7 @@ export const arm = (tab) => tab.page.getByRole('switch', { name: 'Keyboard' }).c
 export const chooseStep = (tab, text) =>
   tab.page.getByRole('group', { name: 'Jog step' }).getByRole('button', { name: text, exact: true }).click();
 
-/** Into the build folder, for people to look at. */
+/** Stores a picture of the tab in the build folder, for inspection. */
 export async function picture(tab, name, height = 900) {
   mkdirSync(PICTURES, { recursive: true });
   await tab.page.setViewportSize({ width: tab.page.viewportSize().width, height });

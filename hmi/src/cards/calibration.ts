@@ -1,6 +1,6 @@
 // Words of the calibration command of an IOFLEX02: two bits of code per axis, and KEEP from bit 8 on.
 
-/** Word of CMD: a command for one axis. KEEP: the other axes receive none, and wait on for theirs. */
+/** Word of CMD with a command for one axis. KEEP is set for the others, so their pending calibrations continue. */
 export const wordOfOne = (axis: number, code: number): number => (code << (2 * axis)) | (0xf00 & ~(0x100 << axis));
 
 /** Word of CMD: the commands of axes 0 to 3, which take effect at the same instant. */

@@ -44,7 +44,7 @@ interface Seen {
   before: CardAnswer | null;
 }
 
-/** Counts per second between two answers: of the count that no calibration zeroes. */
+/** Counts per second between two answers, from RAW, which calibration does not set to 0. */
 export function velocityOf({ now, before }: Seen, axis: number): number | null {
   const [to, from] = [valueOf(now, `${axis}.RAW`), valueOf(before, `${axis}.RAW`)];
   if (now === null || before === null || to === null || from === null || now.at <= before.at) return null;

@@ -8,7 +8,7 @@ import type { CardAnswer } from './peek';
 
 const EVERY_MS = 250;
 
-/** `children`: of the values that were read last. */
+/** `children`: renders the values that were read last. */
 export function LiveCard(props: {
   card: CardInfo;
   place: string;

@@ -71,7 +71,7 @@ function tell(): void {
   jogging.value = [...held.values()].map((one) => (one.direction < 0 ? '-' : '+') + one.axis).join('');
 }
 
-/** `who` (a key or a button) is pressed. In step mode each press is one move; holding has no effect. */
+/** Starts a jog: `who` (a key or a button) is pressed. In step mode each press is one move; holding has no effect. */
 export function begin(who: string, axis: string, direction: 1 | -1, rapid = false): void {
   if (axisOf(axis) === undefined || held.has(who)) return;
   const step = STEPS[stepIndex.value];

@@ -3,7 +3,7 @@ import { armed, begin, end, slowDown } from '../jog/lease';
 import { mayOperate, notice } from '../link/commands';
 import { jogOf, KEYS, type Key } from './table';
 
-/** Input fields that use typed or selecting keys. */
+/** Returns true for an input field that uses typed or selecting keys. */
 function types(target: EventTarget | null): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.isContentEditable || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement)

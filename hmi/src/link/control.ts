@@ -5,7 +5,7 @@ import { holder, inControl, link, mayBeTakenOver, user } from './state';
 
 const KEEP_MS = 3000;
 
-/** Held by another tab or browser of the same user. */
+/** Returns true if the user of this page holds control, possibly in another tab or browser. */
 const own = (): boolean => holder.value !== '' && holder.value === user.value;
 
 /** Reason why control may not be taken now; empty: allowed. During motion only the holder's other tabs may take it. */

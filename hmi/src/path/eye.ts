@@ -14,7 +14,7 @@ export interface Turn {
   far?: number;
 }
 
-/** Not beyond the poles, where up and down would swap. */
+/** Maximum tilt, rad: below pi/2, because up and down would swap beyond the poles. */
 const MAX_TILT = 1.5;
 const [NEAREST, FARTHEST] = [1, 1e4];
 

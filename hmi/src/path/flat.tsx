@@ -163,7 +163,7 @@ function paint(canvas: HTMLCanvasElement, a: number, b: number, fit: boolean): v
   painter.tool(axes[a]?.actual ?? 0, axes[b]?.actual ?? 0);
 }
 
-/** Axes by their index in the list of axes. */
+/** `a`, `b`: indices of the axes in the list of axes. `fit`: shows the surroundings of the path. */
 export function Flat({ a, b, fit, label }: { a: number; b: number; fit: boolean; label: string }): JSX.Element {
   const canvas = useRef<HTMLCanvasElement>(null);
   const wanted = useRef(false);

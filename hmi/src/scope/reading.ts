@@ -3,7 +3,7 @@
 /** The first row is x, then one row per channel. */
 export type Rows = readonly (readonly (number | null)[])[];
 
-/** A channel without a change there keeps its previous value. */
+/** Returns the value of a channel at an index: the last one that is not missing. */
 export function valueAt(values: readonly (number | null)[], at: number): number | null {
   for (let i = at; i >= 0; --i) if (values[i] != null) return values[i] ?? null;
   return null;

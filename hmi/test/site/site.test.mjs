@@ -1,4 +1,4 @@
-// The documentation in a browser, as `motionrack docs` serves it: search, colours, widths, and no request elsewhere.
+// The documentation served by `motionrack docs`, in a browser: search, colours, widths, and no request to other hosts.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { mkdirSync } from 'node:fs';
@@ -22,7 +22,7 @@ after(async () => {
   all.program?.kill('SIGTERM');
 });
 
-/** A tab on a page of the site; `troubles`: complaints of the browser; `elsewhere`: requests to other hosts. */
+/** Opens a tab on a page of the site. `troubles`: errors of the browser; `elsewhere`: requests to other hosts. */
 async function open(path, { width = 1440, scheme = 'light' } = {}) {
   const context = await all.browser.newContext({ viewport: { width, height: 900 }, colorScheme: scheme });
   const page = await context.newPage();
@@ -40,7 +40,7 @@ async function close(tab) {
   await tab.context.close();
 }
 
-/** Types words letter by letter into the search, once its index is there. */
+/** Types words letter by letter into the search after its index is loaded. */
 async function search(tab, words) {
   const ready = tab.page.locator('.md-search-result__meta', { hasText: 'Type to start searching' });
   await ready.waitFor({ state: 'attached', timeout: 30_000 });

@@ -1,4 +1,4 @@
-// Actions of buttons and keys: the commands that they send, and the reason where they may not.
+// Actions of buttons and keys: the commands that they send, and the reasons why they are not allowed.
 import { describe, expect, test } from 'vitest';
 import { settled } from './browser';
 import { axis, connected, type Program } from './program';

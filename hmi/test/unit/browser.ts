@@ -1,17 +1,17 @@
-// A browser as small as the page's modules need one: its store, its events, its clock, and sockets that a test answers.
+// Minimal fake browser for the page's modules: storage, events, clock, and sockets that a test answers.
 import { vi } from 'vitest';
 
 export interface Settings {
-  /** The address behind #. */
+  /** Part of the address after #. */
   hash?: string;
-  /** Kept by the browser from before. */
+  /** Initial content of localStorage. */
   stored?: Record<string, string>;
   secure?: boolean;
   prefersDark?: boolean;
   narrow?: boolean;
 }
 
-/** One connection of the page, as its other end sees it. */
+/** One WebSocket of the page, with access to its messages for the test. */
 export class FakeSocket {
   static readonly OPEN = 1;
   static readonly CLOSED = 3;
@@ -44,7 +44,7 @@ class Media extends EventTarget {
   }
 }
 
-/** Elements that keys are typed into; `type` as an input has it. */
+/** An element that receives keys; `type`: as of an input element. */
 export class FakeElement extends EventTarget {
   isContentEditable = false;
   type = 'text';
@@ -70,7 +70,7 @@ export class Browser {
   readonly systemDark: Media;
   readonly phone: Media;
   readonly posts: Post[] = [];
-  /** How HTTP answers; an Error: not at all. */
+  /** Answer to HTTP requests; an Error: the request fails. */
   http: { ok: boolean; status: number; body: unknown } | Error = { ok: true, status: 200, body: {} };
 
   constructor(settings: Settings) {
@@ -125,11 +125,11 @@ function storeOf(browser: Browser): Partial<Storage> {
   };
 }
 
-/** A fresh browser with a clock that stands still; modules that are imported after it are loaded anew. */
+/** Opens a new browser with a stopped clock; modules imported afterwards are loaded again. */
 export function openBrowser(settings: Settings = {}): Browser {
   vi.resetModules();
   vi.useFakeTimers();
-  // A page takes a while to load; at 0 it would look as if nothing had come yet.
+  // Simulates loading time: at time 0 the page would report that nothing was received yet.
   vi.advanceTimersByTime(1000);
   FakeSocket.all = [];
   const browser = new Browser(settings);
@@ -155,6 +155,6 @@ export function openBrowser(settings: Settings = {}): Browser {
   return browser;
 }
 
-/** Everything that was promised is done; the clock stands. */
+/** Waits until all pending promises are settled, without advancing the clock. */
 export const settled = (): Promise<unknown> => vi.advanceTimersByTimeAsync(0);
 export const after = (ms: number): Promise<unknown> => vi.advanceTimersByTimeAsync(ms);

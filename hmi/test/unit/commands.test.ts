@@ -1,4 +1,4 @@
-// Commands: a refusal is shown, each has its reason why not, and STOP goes both ways.
+// Commands: rejections are shown, each command has a reason if it is not allowed, STOP is sent over stream and HTTP.
 import { describe, expect, test } from 'vitest';
 import type { Role } from '../../src/link/contract';
 import { after, openBrowser, settled } from './browser';

@@ -1,4 +1,4 @@
-// Drawings of paths and work pieces: colours, the part in sight, the eye.
+// Drawings of paths and workpieces: colours, displayed part, viewpoint.
 import { describe, expect, test } from 'vitest';
 import { pathOf, sight, strokesOf, type PieceAnswer } from '../../src/cards/piece';
 import { css, errorColour } from '../../src/path/colours';

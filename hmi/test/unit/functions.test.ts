@@ -1,4 +1,4 @@
-// Functions of a card's library, as any card may declare them: grouped, searched, typed and sent.
+// Functions of a card's library, for any declaration: groups, search, typed arguments, calls.
 import { expect, test } from 'vitest';
 import {
   callText,

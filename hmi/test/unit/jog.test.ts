@@ -1,4 +1,4 @@
-// The lease of a jog: begun, renewed while it is held, and ended by everything that could mean that it is not held.
+// The lease of a jog: started, renewed while a key is held, and ended by every event after which it may not be held.
 import { describe, expect, test } from 'vitest';
 import { after, settled, type Browser, type Settings } from './browser';
 import { axis, connected, type Program } from './program';
@@ -17,7 +17,7 @@ async function opened(settings: Settings = {}): Promise<{ browser: Browser; prog
 const stops = (program: Program): number => program.asked('jog_stop').length;
 const jogs = (program: Program): unknown[] => program.asked('jog').map(({ axis: letter, speed }) => [letter, speed]);
 
-/** No jog comes any more. */
+/** Expects that no further jog is sent within 500 ms. */
 async function ended(program: Program): Promise<void> {
   const count = jogs(program).length;
   await after(500);

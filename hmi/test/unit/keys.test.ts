@@ -1,4 +1,4 @@
-// The keyboard: its table, and keys as the page hears them.
+// The keyboard: its table, and the handling of key events.
 import { describe, expect, test } from 'vitest';
 import { FakeElement, FakeInput, FakeSelect, FakeTextArea, after, type Browser, type Settings } from './browser';
 import { axis, connected, type Program } from './program';
@@ -19,7 +19,7 @@ interface Press {
   isComposing?: boolean;
 }
 
-/** A key goes down or up; true: the page took it, and nothing else on the page hears it. */
+/** Sends a key event. Returns true if the page handled it, so that no element receives it. */
 function key(browser: Browser, kind: 'keydown' | 'keyup', name: string, press: Press = {}): boolean {
   const { target, altGraph, ...rest } = press;
   const none = { ctrlKey: false, altKey: false, metaKey: false, shiftKey: false, repeat: false, isComposing: false };

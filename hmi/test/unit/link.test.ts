@@ -1,4 +1,4 @@
-// Channels, control, the rack and its history, over the connection.
+// Channels, control, the rack and earlier events, over the connection.
 import { describe, expect, test } from 'vitest';
 import { after, settled } from './browser';
 import { connected } from './program';

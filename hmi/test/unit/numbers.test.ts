@@ -1,4 +1,4 @@
-// Numbers as the page shows them, and as they are typed.
+// Display and parsing of numbers.
 import { expect, test } from 'vitest';
 import { duration, fixed, hex, percent, position, seconds, typed, unitName, whole } from '../../src/parts/numbers';
 

@@ -1,4 +1,4 @@
-// Pairing: a code becomes a token that the browser keeps.
+// Pairing: exchanges a code for a token that the browser stores.
 import { expect, test } from 'vitest';
 import { openBrowser, settled } from './browser';
 import { connected } from './program';

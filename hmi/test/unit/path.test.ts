@@ -1,4 +1,4 @@
-// The path: planned and driven, in the order of the page's axes.
+// The planned and the actual path, in the order of the page's axes.
 import { describe, expect, test } from 'vitest';
 import { after, settled, type Browser } from './browser';
 import { axis, connected, type Program } from './program';
@@ -16,7 +16,7 @@ async function following(
   return { browser, program, data, stop };
 }
 
-/** The next time that the page asks. */
+/** Sets the answer to the next query of the path and waits for it. */
 async function next(program: Program, answer: Record<string, unknown>): Promise<void> {
   program.answers.path = { number: 0, axes: 'XYZ', driven: [], ...answer };
   program.show();

@@ -1,4 +1,4 @@
-// Queries that panels ask again and again, and the last seconds of channels.
+// Repeated queries of panels, and the last seconds of channels.
 import { signal } from '@preact/signals';
 import { describe, expect, test } from 'vitest';
 import { after, settled, type Browser } from './browser';
@@ -80,7 +80,7 @@ describe('the last seconds of channels', () => {
     await settled();
     return { data, program, stop };
   };
-  /** A picture of that time of the machine, so much later that a chart is drawn. */
+  /** Sends a snapshot with this machine time, after a delay that is long enough for a chart to be redrawn. */
   const next = async (program: Program, at: number, values: (number | null)[]): Promise<void> => {
     await after(60);
     program.show({ at }, values);

@@ -1,9 +1,9 @@
-// The program at the other end of the page's socket: it writes down the page's messages, and answers as a test wants.
+// Fake program at the other end of the page's socket: records the page's messages and sends the answers of a test.
 import type { AxisStatus, Hello, Role, Status } from '../../src/link/contract';
 import { after, openBrowser, settled, FakeSocket, type Browser, type Settings } from './browser';
 
 type Message = Record<string, unknown> & { id: number };
-/** A text is a refusal with that sentence. */
+/** Answer to a message; a text is a rejection with that sentence. */
 type Answer = Record<string, unknown> | string;
 
 export const axis = (letter: string, part: Partial<AxisStatus> = {}): AxisStatus => ({
@@ -54,7 +54,7 @@ const hello = (part: Partial<Hello> = {}): Hello => ({
 
 export class Program {
   readonly heard: Message[] = [];
-  /** By the name of the command or query, `token` or `subscribe`; without an answer here the page waits for one. */
+  /** Answers by the name of the command or query, `token` or `subscribe`; messages of other names get no answer. */
   readonly answers: Record<string, Answer | ((message: Message) => Answer)> = { subscribe: {} };
   private now = status();
   private sequence = 0;
@@ -84,13 +84,13 @@ export class Program {
     this.say({ hello: hello(part) });
   }
 
-  /** A picture; of the machine the rest stays as it was. */
+  /** Sends a snapshot whose status is the previous one with `part` changed. */
   show(part: Partial<Status> = {}, values?: (number | null)[], lost = 0): void {
     this.now = { ...this.now, ...part };
     this.say({ seq: ++this.sequence, lost, at: this.now.at, status: this.now, ...(values && { values }) });
   }
 
-  /** The messages of this name, without the numbers that only pair questions with answers. */
+  /** Returns the messages of this name, without their ids. */
   asked(name: string): Record<string, unknown>[] {
     return this.heard.filter((one) => nameOf(one) === name).map(({ id: _, ...fields }) => fields);
   }
@@ -102,7 +102,7 @@ const nameOf = (message: Message): string => {
   return message.token === undefined ? 'subscribe' : 'token';
 };
 
-/** A page that is connected, with a first picture. */
+/** Opens a page, connects it and sends a first snapshot. */
 export async function connected(
   settings: Settings & { role?: Role; greeting?: Partial<Hello>; machine?: Partial<Status> } = {},
 ): Promise<{ browser: Browser; program: Program }> {

@@ -1,4 +1,4 @@
-// After each test: the real clock.
+// Restores the real clock after each test.
 import { afterEach, vi } from 'vitest';
 
 afterEach(() => {

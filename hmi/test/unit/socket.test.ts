@@ -1,4 +1,4 @@
-// The connection to the program: questions and answers, pictures, events, and its loss.
+// The connection to the program: requests and answers, snapshots, events, loss of the connection.
 import { describe, expect, test } from 'vitest';
 import { after, FakeSocket, openBrowser, settled } from './browser';
 import { connected, Program, status } from './program';

@@ -1,4 +1,4 @@
-// The page's picture of the machine: states, control, alarms, age.
+// Machine state on the page: states, control, alarms, age.
 import { describe, expect, test } from 'vitest';
 import { alarmState } from '../../src/link/alarms';
 import type { Alarm } from '../../src/link/contract';

@@ -1,4 +1,4 @@
-// Texts that the page keeps: the program, and lines that were sent by hand.
+// Texts that the page stores: the program, and MDI lines.
 import { describe, expect, test } from 'vitest';
 import { openBrowser, settled, type Browser } from './browser';
 import { connected, status, type Program } from './program';

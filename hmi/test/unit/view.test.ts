@@ -1,4 +1,4 @@
-// The open view, and the settings of this browser.
+// The current view, and the settings of this browser.
 import { describe, expect, test } from 'vitest';
 import { openBrowser, type Browser, type Settings } from './browser';
 

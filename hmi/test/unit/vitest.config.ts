@@ -1,4 +1,4 @@
-// The unit tests: all of the page that needs no browser.
+// Configuration of the unit tests, which need no browser.
 import { defineConfig } from 'vitest/config';
 
 export default defineConfig({
@@ -6,7 +6,7 @@ export default defineConfig({
     include: ['test/unit/**/*.test.ts'],
     environment: 'node',
     setupFiles: ['test/unit/setup.ts'],
-    // The clock of the tests stands still; this is the real one, on a machine that has much to do.
+    // In real time, with reserve for a busy computer; the clock inside the tests is stopped.
     testTimeout: 30_000,
     restoreMocks: true,
     unstubGlobals: true,

@@ -1,4 +1,4 @@
-// Words of registers: their fields, and words as they are typed.
+// Register words: their fields, and parsing of typed words.
 import { expect, test } from 'vitest';
 import type { RegisterInfo } from '../../src/link/rack';
 import { analogOutputs, fieldValues, typedWord } from '../../src/cards/words';
