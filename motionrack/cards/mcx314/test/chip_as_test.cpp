@@ -1,5 +1,5 @@
-// The MCX314As from outside: input filters, rings, inverted counters and pulses, triangle prevention, jerk and
-// automatic deceleration of asymmetric ramps, the deviation counter clear pulse.
+// Tests of the MCX314As through its registers and pins: input filters, rings, inverted counters and pulses, triangle
+// prevention, jerk and automatic deceleration of asymmetric ramps, the deviation counter clear pulse.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/mcx314/map.hpp>
@@ -64,7 +64,7 @@ TEST(ChipAs, AnUnfilteredInputStopsInTheNextTick) {
     ChipAsHost b;
     b.start();
     b.mode(X, 1, 0x0020);
-    b.extension(X, 0x1D00);  // all filters but that of IN2
+    b.extension(X, 0x1D00);  // all filters except that of IN2
     b.speeds(X, 80'000, 100, 100);
     b.command(X, 0x22);
     b.advance(tick * 10);
@@ -91,7 +91,7 @@ TEST(ChipAs, TheEmergencyStopIsFilteredByXForAllAxes) {
     EXPECT_EQ(b.read(0) & U, 0u);
     EXPECT_NE(b.status(U, 2) & 0x20u, 0u);
     b.wire("emgn", 1);
-    b.extension(X, 0);  // unfiltered again: level of the wire
+    b.extension(X, 0);  // no filter again: the level of the wire counts
     EXPECT_EQ(b.status(U, 2) & 0x20u, 0u);
 }
 
@@ -118,7 +118,7 @@ TEST(ChipAs, AHandWheelDrivesAtEachOfItsCycles) {
         EXPECT_EQ(b.lp(X), variant == Variant::mcx314as ? 9 : 0);
         b.wire("xexpp", 0);
         b.advance(microseconds(5));
-        b.wire("xexpp", 1);  // bounce at one edge of A, B High: no effect
+        b.wire("xexpp", 1);  // a bounce of A while B is High counts up and down again
         b.advance(microseconds(5));
         EXPECT_EQ(b.lp(X), variant == Variant::mcx314as ? 9 : 0);
     }
@@ -164,7 +164,7 @@ TEST(ChipAs, TheRingAppliesToAConnectedEncoder) {
     EXPECT_EQ(b.ep(X), 99);
     wheel.turn(-1001, b.kernel.now());
     EXPECT_EQ(b.ep(X), 99);
-    b.data(X, cmd::COMP_PLUS, 49);  // a smaller ring: 99 is 49 in it
+    b.data(X, cmd::COMP_PLUS, 49);  // in a smaller ring, 99 becomes 49
     EXPECT_EQ(b.ep(X), 49);
     wheel.turn(-1000, b.kernel.now());
     EXPECT_EQ(b.ep(X), 0);
@@ -181,7 +181,7 @@ TEST(ChipAs, AnInterruptComesAtEachTurnOfTheRing) {
     b.data(X, cmd::COMP_PLUS, 9);
     b.data(X, cmd::COMP_MINUS, -1);
     b.extension(X, ring);
-    b.mode(X, 2, 0x0020);  // compare EP
+    b.mode(X, 2, 0x0020);  // the comparisons use EP
     b.mode(X, 1, 0x1000);  // P >= C+
     for (int turn = 1; turn <= 3; ++turn) {
         wheel.turn(10 * turn - 2, b.kernel.now());
@@ -201,7 +201,7 @@ TEST(ChipAs, TheEncoderCanCountTheOtherWayRound) {
     EXPECT_EQ(b.ep(X), 10);
     wheel.turn(14, b.kernel.now());
     EXPECT_EQ(b.ep(X), 6);
-    const int lines[][2] = {{0, 1}, {0, 0}, {1, 0}};  // up
+    const int lines[][2] = {{0, 1}, {0, 0}, {1, 0}};  // three steps upwards
     b.extension(Z, field("EM6", "EPINV").mask);
     for (const auto& line : lines) b.wire("zeca", line[0]), b.wire("zecb", line[1]);
     EXPECT_EQ(b.ep(Z), -3);
@@ -279,7 +279,7 @@ TEST(ChipAs, TrianglePreventionGivesHalfThePulsesToConstantSpeed) {
         EXPECT_EQ(b.count(0), 4000);
         if (prevented) {
             EXPECT_NEAR(static_cast<double>(top.pulses), 2000, 40);
-            // A quarter of the pulses accelerates: v2 = SV2 + 2 * 125 * A * 1000 / M in units of M.
+            // A quarter of the pulses, 1000, accelerates, in V units: V2 = SV2 + 2 * 125 * A * 1000 / M.
             EXPECT_NEAR(top.speed, 1584, 10);
         } else {
             EXPECT_LT(top.pulses, 100);

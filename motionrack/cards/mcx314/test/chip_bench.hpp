@@ -1,4 +1,5 @@
-// A chip in its own kernel, as a host with wires sees it: write, read, advance, drive a wire, check the interrupt.
+// A chip in its own kernel, with the functions of a host: write, read, advance the time, drive a wire, check the
+// interrupt.
 #pragma once
 
 #include <cstdint>
@@ -69,7 +70,7 @@ class Follower final : public sim::Device {
     sim::DeviceId id_;
 };
 
-/// A position set by the test: the encoder connected to xeca and xecb.
+/// A position set by the test, as the encoder connected to xeca and xecb.
 class HandWheel final : public sim::PositionFunction {
   public:
     std::int64_t count(Instant) const override { return count_; }
@@ -78,7 +79,7 @@ class HandWheel final : public sim::PositionFunction {
     int add_listener(sim::PositionListener& listener) override { return listener_ = &listener, 0; }
     void set_edge_listener(sim::EdgeListener*) override {}
     void deliver_edges() override {}
-    /// Moves count by count, and notifies watches.
+    /// Moves count by count to `to`, and notifies watches.
     void turn(std::int64_t to, Instant now) {
         while (count_ != to) {
             count_ += to > count_ ? 1 : -1;
@@ -97,7 +98,7 @@ class HandWheel final : public sim::PositionFunction {
     sim::PositionListener* listener_ = nullptr;
 };
 
-/// Advances the time, regardless of breaks of the run.
+/// Advances the time by `time`, also if an interrupt breaks the run.
 inline void advance(sim::Kernel& kernel, Duration time) {
     const Instant until = kernel.now() + time;
     while (kernel.run_until(until) == sim::RunEnd::broken) {
@@ -126,7 +127,7 @@ class Bench : public Commands<Bench> {
     std::int32_t lp(unsigned axis) { return counter(axis, 0x10); }
     std::int32_t ep(unsigned axis) { return counter(axis, 0x11); }
     std::int32_t cv(unsigned axis) { return counter(axis, 0x12); }
-    /// R, SV, V, A and D; AO 0.
+    /// Writes R, SV, V, A and D, and AO = 0.
     void speeds(unsigned axes, std::int64_t r, std::int64_t sv, std::int64_t v, std::int64_t a = 200) {
         data(axes, 0x00, r);
         data(axes, 0x04, sv);

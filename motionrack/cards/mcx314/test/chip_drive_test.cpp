@@ -1,4 +1,4 @@
-// The chip from outside: drives of one axis, their speeds, stops, status and interrupts.
+// Tests of drives of one axis through registers and pins: speeds, stops, status and interrupts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 namespace motionrack::mcx314::outside {
 namespace {
 
-// The maker's sample: R = 800,000 (M = 10), A = D = 200, SV = 100, V = 4000: 1,000 to 40,000 pps in 0.156 s, 3,198
-// pulses each way.
+// The sample of the maker: R = 800,000 (M = 10), A = D = 200, SV = 100, V = 4000 give 1,000 to 40,000 pulses/s in 0.156
+// s, with 3,198 pulses in each ramp.
 TEST(ChipDrive, ATrapezoidHasTheDocumentedRampAndExactlyItsPulses) {
     Bench b;
     EdgeLog log;
@@ -58,7 +58,7 @@ TEST(ChipDrive, TheStatusGoesThroughAccelerationConstantSpeedAndDeceleration) {
         b.advance(microseconds(100));
     }
     EXPECT_EQ(seen, (std::vector<unsigned>{1, 2, 4}));
-    EXPECT_LT(before, 150);  // AO = 0: the last pulse comes shortly before SV is reached
+    EXPECT_LT(before, 150);  // with AO = 0 the last pulse comes shortly before SV is reached
     EXPECT_EQ(b.cv(X), 0);
 }
 
@@ -107,7 +107,7 @@ TEST(ChipDrive, ANewSpeedAndANewTargetApplyDuringTheDrive) {
     EXPECT_EQ(b.lp(X), 60'000);
 }
 
-// The maker's home search: V above SV decelerates at an input, V below SV stops at once.
+// As in the maker's home search: a drive with V above SV decelerates at an input, one with V below SV stops at once.
 TEST(ChipDrive, AnInputDeceleratesAFastDriveAndStopsASlowOneAtOnce) {
     Bench b;
     b.start();
@@ -156,19 +156,19 @@ TEST(ChipDrive, ALimitStopsOnlyItsOwnDirectionAndIsRemembered) {
     b.wire("ulmtm", 0);
     b.advance(milliseconds(1));
     EXPECT_TRUE(b.read(0) & U);
-    EXPECT_TRUE(b.read(0) & U << 4);  // the limit is shown as an error nevertheless
+    EXPECT_TRUE(b.read(0) & U << 4);  // RR0 shows the limit as an error nevertheless
     b.wire("ulmtp", 0);
     b.advance(tick);
     EXPECT_FALSE(b.read(0) & U);
     EXPECT_EQ(b.status(U, 1) & 0xFF00u, 0x1000u);
     EXPECT_EQ(b.status(U, 2), 0x000Cu);
-    // Into the limit: no pulse at all.
+    // A drive into the active limit makes no pulse.
     const std::int64_t at = b.count(3);
     b.command(U, 0x22);
     b.advance(milliseconds(1));
     EXPECT_FALSE(b.read(0) & U);
     EXPECT_EQ(b.count(3), at);
-    // 25h clears the stored state.
+    // Command 25h clears the stored stop causes.
     b.wire("ulmtp", 1);
     b.wire("ulmtm", 1);
     EXPECT_TRUE(b.read(0) & U << 4);
@@ -344,7 +344,7 @@ TEST(ChipDrive, OutOfRangeParametersAreUsedAtTheirLimits) {
     b.data(X, 0x06, 100'000);
     b.command(X, 0x20);
     b.advance(milliseconds(100));
-    EXPECT_EQ(b.cv(X), 13);  // SV = 1 and A = 1: a step every 64,000 ticks, that is 8 ms
+    EXPECT_EQ(b.cv(X), 13);  // with SV = 1 and A = 1 the speed rises by 1 in 64,000 ticks, which are 8 ms
     EXPECT_TRUE(b.read(0) & X);
 }
 

@@ -1,4 +1,4 @@
-// The fuzzer of the chip.
+// Fuzzes the chip and checks the invariants.
 #include <fmt/format.h>
 
 #include <motionrack/cards/mcx314/test/chip_fuzz.hpp>
@@ -19,7 +19,7 @@ class Sum final : public sim::EdgeListener {
     std::int64_t total = 0;
 };
 
-// A fixed drive begun by command, with its expected end.
+// A fixed drive started by a command, and whether something may end it before P.
 struct Fixed {
     bool on = false, excused = false, rewritten = false;
     std::int64_t from = 0;
@@ -153,7 +153,7 @@ class Run {
         if (feed_.below(4) != 0) command(0, 0x37);
         if (feed_.below(2) != 0) command(0, 0x34 + feed_.below(2));
     }
-    // MCX314As only; actions are rare, because they excuse every drive.
+    // Commands of the MCX314As. Synchronous actions are rare, because afterwards no drive needs to end at P.
     void extension() {
         static constexpr std::uint32_t codes[] = {0x62, 0x62, 0x62, 0x63, 0x65, 0x14,
                                                   0x61, 0x61, 0x0E, 0x60, 0x60, 0x60};
@@ -168,7 +168,7 @@ class Run {
     void wire() {
         const std::uint32_t which = feed_.below(44);
         const sim::WireId id = which >= 40 ? common_[which % 2] : inputs_[which / 10][which % 10];
-        const bool asks = which < 40 ? which % 10 == 4 || which % 10 == 5 : which % 2 == 1;  // drive or step
+        const bool asks = which < 40 ? which % 10 == 4 || which % 10 == 5 : which % 2 == 1;  // drive or step inputs
         kernel_.force(id, feed_.below(asks ? 2 : 8) != 0);
         kernel_.settle();
     }
@@ -232,7 +232,7 @@ class Run {
             if ((effect.stops | shadow_.software_limits | (shadow_.acts != 0 ? 15u : 0u)) >> a & 1u)
                 fixed.excused = true;
             if (effect.writes_p >> a & 1u) fixed.rewritten = true;
-            // A drive may have ended and wait for its position: what follows may belong to it or not.
+            // A drive may have ended and wait for in-position, so the effect may belong to it or to the next drive.
             const bool may_follow = (shadow_.in_position & drove & (effect.begins ? 15u : effect.writes_p)) >> a & 1u;
             if (may_follow || (shadow_.external >> a & 1u)) fixed.on = false;
         }
@@ -279,7 +279,7 @@ class Run {
         require(false,
                 fmt::format("a fixed drive ended after {} pulses, not P = {}, with no stop latched", made, wanted), a);
     }
-    // The future does not depend on reads of the status registers.
+    // Checks that a read of the status registers does not change the future.
     void look_twice() {
         const sim::Snapshot before = kernel_.snapshot();
         const std::array<Sum, 2> edges = edges_;
@@ -301,7 +301,7 @@ class Run {
         edges_ = edges;
         require(hash[0] == hash[1], "a read of a status register had an effect");
     }
-    // 27h with all inputs released: no axis drives, and 25h would begin no drive.
+    // Checks that after 27h with all inputs released no axis drives, and that 25h would start no drive.
     void let_end() {
         for (const auto& axis : inputs_)
             for (const sim::WireId input : axis) kernel_.force(input, 1);
@@ -329,7 +329,7 @@ class Run {
     std::array<std::array<sim::WireId, 10>, axis_count> inputs_{};
     std::array<sim::WireId, 2> common_{};
     std::array<Sum, 2> edges_;
-    std::array<std::uint32_t, axis_count> base_{};  // LP minus pulses
+    std::array<std::uint32_t, axis_count> base_{};  // LP minus the pulses counted
     std::array<Fixed, axis_count> fixed_{};
 };
 

@@ -1,4 +1,4 @@
-// Knowledge of a host about the chip from its own writes, and the possible effects of each write.
+// Knowledge of a host about the chip from its own writes alone, and the possible effects of each write.
 #pragma once
 
 #include <array>
@@ -6,13 +6,13 @@
 
 namespace motionrack::mcx314::fuzz {
 
-/// Masks of axes.
+/// Possible effects of one write; masks of axes unless stated otherwise.
 struct Effect {
-    unsigned axes = 0;        ///< named by the command
-    unsigned stops = 0;       ///< 26h, 27h, RESET
-    unsigned writes_p = 0;    ///< 06h
-    unsigned writes_lp = 0;   ///< 09h, RESET
-    int fixed_direction = 0;  ///< 20h: +1, 21h: -1
+    unsigned axes = 0;        ///< axes selected by the command
+    unsigned stops = 0;       ///< the command is 26h or 27h, or RESET
+    unsigned writes_p = 0;    ///< the command is 06h, or RESET
+    unsigned writes_lp = 0;   ///< the command is 09h, RESET, or one after which LP may change without pulses
+    int fixed_direction = 0;  ///< +1 for 20h, -1 for 21h
     bool begins = false;      ///< a command that may begin a drive
 };
 
@@ -20,10 +20,10 @@ class Shadow {
   public:
     explicit Shadow(bool extended = false) : extended_(extended) {}
 
-    std::array<std::int64_t, 4> pulses{};                         ///< P
-    unsigned software_limits = 0, in_position = 0, external = 0;  ///< axes with these enabled so far
+    std::array<std::int64_t, 4> pulses{};                         ///< P as written
+    unsigned software_limits = 0, in_position = 0, external = 0;  ///< axes with these enabled at present
     unsigned acts = 0;                                            ///< axes with synchronous actions
-    unsigned recounted = 0;  ///< axes whose LP may change without pulses: rings, PCLR
+    unsigned recounted = 0;  ///< axes whose LP may change without pulses, because of rings or PCLR
     unsigned unknown = 0;    ///< axes whose P synchronous actions may have written
 
     Effect write(std::uint32_t offset, std::uint16_t value, std::uint16_t mask) {

@@ -1,4 +1,5 @@
-// A million random accesses, twice: the invariants hold, and the same numbers give the same history.
+// Runs the fuzzer with a million random accesses, twice: the invariants hold, and the same numbers give the same
+// history.
 //
 // MOTIONRACK_SEED and MOTIONRACK_ACCESSES in the environment select other and more of them.
 #include <gtest/gtest.h>

@@ -51,7 +51,7 @@ struct Homing : Bench {
         advance(milliseconds(1));
     }
     void extension(unsigned em6, unsigned em7) { data(X, cmd::EM, std::int64_t{em7} << 16 | em6); }
-    // The states passed, each once.
+    // Runs the search and returns the states passed, without repetitions.
     std::vector<unsigned> search() {
         std::vector<unsigned> states;
         command(X, cmd::HOME);
@@ -97,7 +97,7 @@ TEST(ChipHome, LeavesTheSwitchFirstIfItStartsOnIt) {
 }
 
 TEST(ChipHome, AnIndexThatIsAlreadyActiveIsAnError) {
-    Homing b(100, 5);  // IN1 acts at the very position of an index
+    Homing b(100, 5);  // IN1 acts exactly at the position of an index
     b.extension(home_interrupt, steps_minus_minus_plus_plus | clear_counters);
     EXPECT_EQ(b.search(), (std::vector<unsigned>{3, 8}));
     EXPECT_DOUBLE_EQ(b.position(), 5.0);
@@ -111,7 +111,7 @@ TEST(ChipHome, AnIndexThatIsAlreadyActiveIsAnError) {
 
 TEST(ChipHome, TheLimitSwitchCanBeTheHomeSwitch) {
     Homing b(100, 4, true);
-    b.mode(X, 2, 0x0004);  // the limit stops decelerating
+    b.mode(X, 2, 0x0004);  // the limit switch stops with deceleration
     b.extension(slow_filters, 0x1F | limit_is_home);
     EXPECT_EQ(b.search(), (std::vector<unsigned>{3, 12, 15, 20}));
     EXPECT_DOUBLE_EQ(b.position(), 5.0);
@@ -120,7 +120,7 @@ TEST(ChipHome, TheLimitSwitchCanBeTheHomeSwitch) {
 
 TEST(ChipHome, TheIndexIsAcceptedOnlyWithinTheSwitchIfBothAreRequired) {
     Homing b(100, 4);
-    b.data(X, cmd::HV, 500);  // no longer slow: it stops decelerating, beyond the index
+    b.data(X, cmd::HV, 500);  // with HV not slow the drive decelerates, beyond the index
     b.extension(0, 0x30 | z_within_in1);
     EXPECT_EQ(b.search(), (std::vector<unsigned>{20}));
     EXPECT_LT(b.position(), 0.0);
@@ -153,11 +153,11 @@ struct HomeByHand : Bench {
 };
 
 TEST(ChipHome, StepTwoReversesAtALimit) {
-    HomeByHand b(0x0C);  // only step 2, towards -
+    HomeByHand b(0x0C);  // only step 2, in - direction
     b.command(Y, cmd::HOME);
     EXPECT_EQ(hmst(b, Y), 8u);
     EXPECT_EQ(b.direction(), -1);
-    b.move("ylmtm", 0);  // passed the switch without seeing it
+    b.move("ylmtm", 0);  // the search passed the switch without seeing it
     EXPECT_EQ(hmst(b, Y), 12u);
     EXPECT_EQ(b.direction(), 1);
     b.move("ylmtm", 1);
@@ -190,10 +190,10 @@ TEST(ChipHome, EndsOnAStopAnAlarmOrTheOppositeLimit) {
     } ends[] = {
         {nullptr, 0x26, 0}, {nullptr, 0x27, 0}, {"yalarm", 0, 0x4000}, {"emgn", 0, 0x8000}, {"ylmtp", 0, 0x1000}};
     for (const auto& end : ends) {
-        HomeByHand b(0x0D);  // step 1 towards +, step 2 towards -
+        HomeByHand b(0x0D);  // step 1 in + direction, step 2 in - direction
         b.mode(Y, 2, 0x2000);
         b.command(Y, cmd::HOME);
-        if (end.pin && std::string(end.pin) == "ylmtp") {  // in the way of the escape of step 2
+        if (end.pin && std::string(end.pin) == "ylmtp") {  // ahead while step 2 leaves the switch
             b.move("yin1", 0);
             b.move("yin0", 0);
             b.advance(milliseconds(20));
@@ -231,7 +231,7 @@ TEST(ChipHome, IgnoresDriveCommandsDuringTheSearch) {
 }
 
 TEST(ChipHome, TheClearPulseLiesBetweenIndexAndOffset) {
-    HomeByHand b(0x50 | clear_pulse | 3u << 13);  // steps 3 and 4, 200 us
+    HomeByHand b(0x50 | clear_pulse | 3u << 13);  // steps 3 and 4, with a clear pulse of 200 us
     b.command(Y, cmd::HOME);
     b.advance(milliseconds(5));
     b.wire("yin2", 0);

@@ -14,14 +14,14 @@ namespace motionrack::mcx314::outside {
 namespace {
 
 struct Machine {
-    std::string_view name;     // in the map
-    std::string_view value;    // of Chip::inspect
-    int instances;             // axes
+    std::string_view name;     // name in the map
+    std::string_view value;    // name of the value that Chip::inspect returns
+    int instances;             // number of axes, or 1
     std::string_view passing;  // states that may be passed at once: "a b c"
 };
-// A drive whose end is reached at its first working tick ends at once, and is in position at once if that is disabled.
-// A queued segment without pulses takes over and ends in one tick. A step may be requested just after its segment's
-// command.
+// Why states may be passed: a drive whose end is reached at its first working tick ends at once, and is in position at
+// once if that input is disabled. A queued segment without pulses takes over and ends in one tick. A step may be
+// requested just after the command of its segment.
 constexpr Machine machines[] = {
     {"drive", "DRIVE_STATE", 4, "driving final in_position"},
     {"continuous interpolation", "QUEUE_STATE", 1, "running"},
@@ -43,7 +43,7 @@ const MachineInfo& declared_machine(std::string_view name) {
     throw std::out_of_range(std::string(name));
 }
 
-// True if the table leads from one state to another, through passing states only.
+// Returns true if the table leads from one state to another, with only passing states in between.
 bool leads(const MachineInfo& info, std::string_view passing, int from, int to) {
     std::set<int> reached = {from}, looked;
     while (reached.size() > looked.size())

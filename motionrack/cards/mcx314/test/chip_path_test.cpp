@@ -1,4 +1,4 @@
-// The chip from outside: lines, arcs and chains of them.
+// Tests of lines, arcs and chains of them through registers and pins.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -25,8 +25,8 @@ void command_segment(Bench& b, const PathSegment& s) {
     b.command(0, s.code);
 }
 
-// The maker's sample: a running track of four lines and four quarter circles of 1,500 pulses, without a stop at the
-// junctions.
+// The sample of the maker: a closed contour of four lines and four quarter circles of 1,500 pulses, without a stop at
+// the junctions.
 TEST(ChipPath, TheDocumentedContourCloses) {
     const PathSegment track[] = {
         {0x30, 0, 0, 4500, 0},  {0x33, 0, 1500, 1500, 1500},    {0x30, 0, 0, 0, 1500},  {0x33, -1500, 0, -1500, 1500},
@@ -129,7 +129,7 @@ RC_GTEST_PROP(ChipPath, AnyLineStaysWithinHalfAPulseOfTheIdealOne, ()) {
     RC_ASSERT(b.lp(X) == px);
     RC_ASSERT(b.lp(Y) == py);
     RC_ASSERT(b.lp(Z) == pz);
-    // The long axis steps at every basic pulse; the others nearest to the ideal line.
+    // The long axis steps at every basic pulse; the others are at the pulses nearest to the ideal line.
     const int p[3] = {px, py, pz};
     const EdgeLog* master = nullptr;
     for (std::size_t a = 0; a < 3; ++a)

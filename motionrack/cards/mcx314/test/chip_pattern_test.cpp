@@ -1,4 +1,4 @@
-// Bit patterns from outside: the maker's figure, the stack, late data, stops, registers.
+// Tests of bit patterns through registers and pins: the maker's figure, the stack, late data, stops, registers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -190,15 +190,15 @@ TEST(ChipPattern, TheRegistersStandWhereTheModesWereOnlyWhileEnabled) {
     Patterns b;
     b.command(X, cmd::NOP);
     b.write(1, 0x8000);
-    for (int n = 2; n <= 7; ++n) b.write(n, 0xFFFF);  // would be alarms, S-curves and outputs
+    for (int n = 2; n <= 7; ++n) b.write(n, 0xFFFF);  // without BP_ENABLE: alarms, S-curves and outputs
     EXPECT_EQ(b.level("xout0"), 0);
-    b.command(X, cmd::V);  // WR6 has its value from before 36h: AO's 0
+    b.command(X, cmd::V);  // WR6 still has its value from before 36h: the 0 of AO
     b.command(0, cmd::BP_DISABLE);
     EXPECT_EQ(b.status(X, 2), 0u);
     b.write(4, 0x0001);
     b.kernel.settle();
     EXPECT_EQ(b.level("xout0"), 1);
-    b.command(0, cmd::BP_STACK);  // the registers keep the written values
+    b.command(0, cmd::BP_STACK);  // the pattern registers keep the written values
     EXPECT_EQ(b.stacked(), 1u);
     b.data(X, cmd::V, 2000);
     b.go();
@@ -234,8 +234,8 @@ TEST(ChipPattern, ConstantVectorSpeedLengthensPulsePeriodsOfTwoAxes) {
     b.advance(tick * 400);
     std::vector<std::int64_t> at;
     for (const auto& edge : x.list) at.push_back(edge.tick);
-    // R after a basic pulse depends on the number of axes it stepped: two with D0, D1 and D8.., one with D2..D5, none
-    // with D6, D7.
+    // R after a basic pulse depends on the number of axes that it stepped: two with D0, D1 and from D8 on, one with D2
+    // to D5, none with D6 and D7.
     EXPECT_EQ(at, (std::vector<std::int64_t>{12, 26, 40, 50, 100, 114, 128, 142}));
 }
 

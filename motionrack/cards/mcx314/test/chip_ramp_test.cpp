@@ -1,4 +1,5 @@
-// Unobserved ramps are computed as one event: the result equals that of a run with a listener for every pulse.
+// Tests that ramps without observers, which the chip computes as one event, equal those with a listener for every
+// pulse.
 #include <gtest/gtest.h>
 
 #include <iostream>

@@ -1,4 +1,4 @@
-// Chip options for which the sources allow two readings, from outside; both must behave as documented.
+// Tests of the chip options for which the sources allow two readings: both must behave as documented.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -21,7 +21,7 @@ TEST(ChipReadings, ADriveSlowerThanSvRunsAtVOrAtSv) {
             ASSERT_TRUE(b.finish(X));
             EXPECT_EQ(b.count(0), 10);
             b.command(X, 0x22);
-            b.data(X, 0x04, 40);  // V is no longer below it
+            b.data(X, 0x04, 40);  // V is now above SV
             b.advance(milliseconds(100));
             EXPECT_EQ(b.cv(X), 50);
             b.command(X, 0x26);
@@ -67,7 +67,7 @@ TEST(ChipReadings, AoHasTheValueOfTheSettingUntilItIsWrittenAndAfterReset) {
         const Instant from = b.kernel.now();
         ASSERT_TRUE(b.finish(X));
         EXPECT_EQ(b.count(0), 20'000);
-        // 20,000 pulses with two ramps of 0.156 s; AO of them at 1,000/s instead of 40,000/s.
+        // 20,000 pulses with two ramps of 0.156 s; the last AO pulses are made at 1,000 pulses/s instead of 40,000.
         const double seconds = 0.156 * 2 + (20'000 - 6'396) / 40'000.0 + offset * (1 / 1'000.0 - 1 / 40'000.0);
         EXPECT_NEAR(static_cast<double>((b.kernel.now() - from) / microseconds(1)) * 1e-6, seconds, 0.002);
     }

@@ -1,4 +1,4 @@
-// Drives and steps on request, from outside: single steps by command and by wire, nEXPP and nEXPM, the 8-bit bus.
+// Tests of drives and steps on request: single steps by command and by wire, drives by nEXPP and nEXPM, the 8-bit bus.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -245,7 +245,7 @@ TEST(ChipBytes, TheLowByteOfWr0ExecutesTheCommand) {
     bus.out(1, X);
     EXPECT_EQ(b.chip.peek(0) & X, 0);
     bus.out(0, cmd::P);
-    bus.out(0, cmd::FIXED_PLUS);  // for the axes written last
+    bus.out(0, cmd::FIXED_PLUS);  // for the axes selected by the last write of the high byte
     b.advance(milliseconds(1));
     EXPECT_EQ(b.count(0), 300);
     bus.out(1, X);

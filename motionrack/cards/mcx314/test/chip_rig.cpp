@@ -1,5 +1,5 @@
-// Register programs on the event-driven chip: accesses between runs, wires forced between ticks or changed at their
-// very instant.
+// Runs register programs on the event-driven chip: accesses between runs of the kernel, and wires forced between ticks
+// or changed exactly at a tick.
 #include <array>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/test/chip_rig.hpp>
@@ -15,11 +15,11 @@ namespace {
 
 constexpr Duration one_tick = nanoseconds(125);
 
-// Changes wires at an instant, before the cards read them.
+// Changes wires at an instant, before the chip reads them.
 class Hand final : public sim::Device {
   public:
     explicit Hand(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::wires, "hand")) {}
-    /// All pending changes must be for the same instant.
+    /// Adds a change; all pending changes must be for the same instant.
     void move(sim::WireId wire, int level, Instant at) {
         moves_.emplace_back(wire, level);
         kernel_.schedule(id_, at);
@@ -180,7 +180,7 @@ class Bench {
         return wires_[op.axis][static_cast<int>(op.pin)];
     }
 
-    // `more`: the next op changes a wire at the same instant, so the tick must not be executed yet.
+    // Changes a wire. `more`: the next op changes a wire at the same instant, so the tick must not be executed yet.
     Sight move_wire(const Op& op, bool more) {
         hand_.move(wire_of(op), op.value, instant_of(op));
         if (!more) run_to(instant_of(op));
@@ -208,7 +208,8 @@ class Bench {
         return sight;
     }
 
-    // A peek before the read must change nothing and return the same value.
+    // Reads a register. A peek before the read must change nothing and return the same value; otherwise the result is
+    // inverted.
     std::uint16_t read(std::uint8_t offset) {
         const std::uint16_t peeked = chip_.peek(offset), value = chip_.read(offset);
         return peeked == value ? value : static_cast<std::uint16_t>(~value);

@@ -1,4 +1,4 @@
-// Register programs on the event-driven chip in a kernel of its own.
+// Runs register programs on the event-driven chip, each in a kernel of its own.
 #pragma once
 
 #include <motionrack/cards/mcx314/test/rig.hpp>

@@ -1,4 +1,4 @@
-// Causes of stops, from outside: the four stop inputs, alarm, limits with both styles, and their latched flags.
+// Tests of the causes of stops: the four stop inputs, alarm, limits in both stop modes, and their latched flags.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/mcx314/map.hpp>

@@ -1,4 +1,4 @@
-// Synchronous actions of the MCX314As from outside.
+// Tests of the synchronous actions of the MCX314As through registers and pins.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/mcx314/map.hpp>
@@ -76,7 +76,7 @@ TEST(ChipSync, Input3SavesThePositionOfAllAxesAtTheSameInstant) {
     EXPECT_EQ(b.buffer(X), b.lp(X));
     EXPECT_EQ(b.buffer(Y), b.lp(Y));
     b.advance(tick * 100);
-    b.wire("xin3", 1);  // not a condition here
+    b.wire("xin3", 1);  // the rise of IN3 is not a selected condition
     b.advance(tick * 10);
     EXPECT_LT(b.buffer(X), b.lp(X));
     EXPECT_EQ(b.status(X, 3), 0u);

@@ -1,4 +1,4 @@
-// The wide ranges of the MCX314As: drives, lines and arcs at the ends of 32 bits, and the arithmetic behind them.
+// Tests of the wide ranges of the MCX314As: drives, lines and arcs at the ends of 32 bits, and the arithmetic for them.
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/mcx314/arithmetic.hpp>
@@ -44,7 +44,7 @@ TEST(ChipWide, LinesAndArcsReachTheEndsOfTheirWideRange) {
     c.data(X, cmd::C, -2'147'483'646);
     c.data(Y, cmd::C, -2'147'483'646);
     c.data(X, cmd::P, -2'147'483'646 + 2'147'483'646 / 2);
-    c.data(Y, cmd::P, 889'516'852);  // about where the circle is there
+    c.data(Y, cmd::P, 889'516'852);  // about the Y at which the circle has that X
     c.command(0, cmd::ARC_CCW);
     c.advance(whole_seconds(900));
     ASSERT_EQ(c.read(0) & (X | Y), 0u);

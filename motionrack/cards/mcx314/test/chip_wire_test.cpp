@@ -1,4 +1,4 @@
-// The chip from outside: pulse outputs, encoder inputs, general outputs, listeners and snapshots.
+// Tests of the pins of the chip: pulse outputs, encoder inputs, general outputs; and of listeners and snapshots.
 #include <gmock/gmock.h>
 
 #include <motionrack/cards/mcx314/chip/general_outputs.hpp>
@@ -27,7 +27,7 @@ TEST(ChipWires, TwoPulseModeHasAWireForEachDirection) {
     b.advance(microseconds(10));
     short_drive(b, X, 1, 0x21);
     b.advance(microseconds(10));
-    // Started at tick 0 the generator runs from tick 3 on: pulses at 18 and 34.
+    // After a start at tick 0 the generator works from tick 3 on: pulses at ticks 18 and 34.
     EXPECT_EQ(log.of("c.xpp"),
               (std::vector<Change>{{"c.xpp", 1, 18}, {"c.xpp", 0, 26}, {"c.xpp", 1, 34}, {"c.xpp", 0, 42}}));
     EXPECT_EQ(log.of("c.xpm"), (std::vector<Change>{{"c.xpm", 1, 98}, {"c.xpm", 0, 106}}));
@@ -119,7 +119,7 @@ TEST(ChipWires, GeneralOutputsFollowWr4AndWr3OrTheDrivesStatus) {
     const auto changes = log.of("c.xout6");
     ASSERT_EQ(changes.size(), 2u);
     EXPECT_EQ(changes[0].level, 1);
-    EXPECT_EQ(changes[1].tick - changes[0].tick, 63'999);  // 100 units of V in 100 * 640 ticks, the first one included
+    EXPECT_EQ(changes[1].tick - changes[0].tick, 63'999);  // 100 V units of 640 ticks each, less one tick
 }
 
 TEST(ChipWires, ClearedGeneralOutputsAreLowAndTheSelectedAxesAndTheShownStatusStay) {
@@ -131,7 +131,7 @@ TEST(ChipWires, ClearedGeneralOutputsAreLowAndTheSelectedAxesAndTheShownStatusSt
     for (const char* wire : {"c.yout5", "c.uout7"}) follower.follow(wire, true);
     b.write(4, 0xFFFF);
     b.mode(X | Y | Z | U, 3, 0x0F04);  // OUT4..7 high, S-curve
-    b.mode(X, 3, 0x0F80);              // of X the status of the drive: CMP+ and CMP- without a move
+    b.mode(X, 3, 0x0F80);              // X shows its drive status: CMP+ and CMP- at standstill
     const auto shown = b.level("xout4");
     b.kernel.settle();
     EXPECT_EQ(b.level("yout5"), 1);
@@ -152,19 +152,19 @@ TEST(ChipWires, ClearedGeneralOutputsAreLowAndTheSelectedAxesAndTheShownStatusSt
     EXPECT_EQ(b.level("yout4"), 0);
 }
 
-/// A host writes whole words: those that it remembers from before the stop.
+/// A host writes whole words, with the bits that it remembers from before the stop.
 TEST(ChipWires, AClearedOutputStaysLowUntilItIsWrittenLow) {
     Bench b;
     b.start();
     b.write(4, 0x0003);    // X OUT0, OUT1
-    b.mode(Y, 3, 0x0304);  // Y OUT4, OUT5, S-curve
+    b.mode(Y, 3, 0x0304);  // nOUT4 and nOUT5 of Y, S-curve
     Chip::GeneralOutputs::clear(b.chip);
     const auto told = [&] {
         std::vector<std::string> out;
         for (const sim::Condition& one : b.kernel.conditions()) out.push_back(describe(one, "c"));
         return out;
     };
-    b.write(4, 0x0013);  // and Y OUT0, which was low
+    b.write(4, 0x0013);  // also Y OUT0, which was low
     EXPECT_EQ(b.level("xout0"), 0);
     EXPECT_EQ(b.level("xout1"), 0);
     EXPECT_EQ(b.level("yout0"), 1);
@@ -183,7 +183,7 @@ TEST(ChipWires, AClearedOutputStaysLowUntilItIsWrittenLow) {
     b.mode(Y, 3, 0x0300);
     EXPECT_EQ(b.level("yout4"), 1);
     EXPECT_EQ(b.level("yout5"), 0);
-    b.write(0, 0x8000);  // a reset of the chip ends it
+    b.write(0, 0x8000);  // a reset of the chip allows the outputs again
     b.write(4, 0x0003);
     EXPECT_EQ(b.level("xout1"), 1);
 }
@@ -191,7 +191,7 @@ TEST(ChipWires, AClearedOutputStaysLowUntilItIsWrittenLow) {
 TEST(ChipEncoder, EveryDivisionCountsItsEdges) {
     const struct {
         unsigned wr2;
-        int up, back;  // EP after 9 counts, and after 5 of them backwards
+        int up, back;  // EP after 9 counts up, and after 5 of them back
     } cases[] = {{0x0000, 9, 4}, {0x0400, 5, 2}, {0x0800, 3, 1}, {0x0200, 9, 4}};
     for (const auto& c : cases) {
         Bench b;
@@ -227,7 +227,7 @@ TEST(ChipEncoder, AComparisonWithEpInterruptsWhenTheEncoderPassesIt) {
     b.start();
     b.mode(X, 2, 0x0020);  // compare EP
     b.data(X, 0x0B, 100);
-    wheel.turn(150, b.kernel.now());  // not enabled yet: not latched
+    wheel.turn(150, b.kernel.now());  // not enabled yet, so not latched
     b.mode(X, 1, 0x1800);             // P < C+ and P >= C+
     b.kernel.settle();
     EXPECT_FALSE(b.interrupt());
@@ -262,7 +262,7 @@ TEST(ChipEncoder, ASoftwareLimitMayBeOfTheEncoder) {
 TEST(ChipEncoder, WithoutAnEncoderTheLinesThemselvesCount) {
     Bench b;
     b.start();
-    const int lines[][2] = {{0, 1}, {0, 0}, {1, 0}, {1, 1}, {0, 1}};  // A falls first: up
+    const int lines[][2] = {{0, 1}, {0, 0}, {1, 0}, {1, 1}, {0, 1}};  // A falls first: upwards
     for (const auto& line : lines) {
         b.wire("zeca", line[0]);
         b.wire("zecb", line[1]);
@@ -270,7 +270,7 @@ TEST(ChipEncoder, WithoutAnEncoderTheLinesThemselvesCount) {
     EXPECT_EQ(b.ep(Z), 5);
     b.wire("zeca", 1);
     EXPECT_EQ(b.ep(Z), 4);
-    b.mode(Z, 2, 0x0200);  // up/down pulses
+    b.mode(Z, 2, 0x0200);  // up and down pulses
     for (int i = 0; i < 3; ++i) b.wire("zecb", 0), b.wire("zecb", 1);
     EXPECT_EQ(b.ep(Z), 1);
 }
@@ -360,7 +360,7 @@ TEST(ChipMotion, RatesAreReportedAtEveryStepOfTheSpeedAndOfEveryAxis) {
     b.command(0, 0x30);
     ASSERT_TRUE(b.finish(X | Y));
     b.advance(tick);
-    ASSERT_EQ(x.rates.size(), 12u);  // 100 .. 110, and 0
+    ASSERT_EQ(x.rates.size(), 12u);  // 11 rates, 100 to 110, then 0
     for (int i = 0; i <= 10; ++i) {
         EXPECT_DOUBLE_EQ(x.rates[static_cast<std::size_t>(i)], 100.0 * (100 + i));
         EXPECT_DOUBLE_EQ(y.rates[static_cast<std::size_t>(i)], -25.0 * (100 + i));

@@ -1,4 +1,5 @@
-// Commands with their data as register traffic, for all hosts of the tests and benchmarks: of a chip or its twin.
+// Writes commands with their data as register accesses, for all hosts of the tests and benchmarks: on a chip or its
+// twin.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +7,7 @@
 
 namespace motionrack::mcx314 {
 
-/// `Host` has write(number, value), which writes WR0 .. WR7.
+/// `Host` must have write(number, value), which writes WR0 .. WR7.
 template <class Host>
 class Commands {
   public:
@@ -17,7 +18,7 @@ class Commands {
         host().write(6, bits & 0xFFFFu);
         command(axes, code);
     }
-    /// WR1 .. WR3 of axes.
+    /// Writes WR1, WR2 or WR3 (`number`) of axes.
     void mode(unsigned axes, int number, unsigned value) {
         command(axes, cmd::NOP);
         host().write(number, value);

@@ -1,4 +1,4 @@
-// Contract between the function library and any card: run here on a virtual chip, elsewhere on a live port. The tests
+// Contract between the function library and any card: here run on a virtual chip, elsewhere on a live port. The tests
 // use only registers and the library, need no wiring, and assume no exact durations.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -204,7 +204,7 @@ TEST_F(Contract, QuartersAndFullCirclesEndAtTheirFinishPoints) {
     }
 }
 
-/// The maker's sample: straight lines and quarter circles of a rounded square, back to its start.
+/// The sample of the maker: lines and quarter circles of a rounded square, back to its start.
 TEST_F(Contract, TheDocumentedContourIsClosed) {
     for (const std::int64_t acceleration : {0, 400}) {
         done(card().LPS(xyzu, 0));
@@ -226,7 +226,7 @@ TEST_F(Contract, TheDocumentedContourIsClosed) {
     }
 }
 
-/// A sequence of words: those stacked ahead and those that arrive while it runs form one path.
+/// Words stacked before the start and words added while the drive runs form one path.
 TEST_F(Contract, ABitPatternOfTwoAxesEndsAtTheSumOfItsBits) {
     done(card().BP2D({0, 20, 0, 0}, 0x9));
     const BPWORD word{{0xFFFF, 0x00F0}, {0x0000, 0xFF00}};  // X 16 times +; U 4 times +, 8 times -
@@ -243,7 +243,7 @@ TEST_F(Contract, ABitPatternOfTwoAxesEndsAtTheSumOfItsBits) {
     EXPECT_EQ(card().ReadLPS(0), 12 * 16 + 3);
     EXPECT_EQ(card().ReadLPS(3), 12 * -4);
     EXPECT_EQ(card().ReadLPS(1), 0);
-    // The registers have their own functions again.
+    // The shared registers have their own functions again.
     done(card().TCurve_F(axis_x, 10, 500, 400, 5));
     finish(axis_x);
     EXPECT_EQ(card().ReadLPS(0), 12 * 16 + 8);
@@ -331,7 +331,7 @@ TEST_F(Contract, TheEndOfADriveInterruptsAndReadingClearsIt) {
     EXPECT_EQ(card().read_interrupts(1), cause::drive_end);
     EXPECT_EQ(card().read_interrupts(1), 0);
     EXPECT_FALSE(card().interrupt().wait(milliseconds(1)));
-    // A wait returns the interrupts that it had to read.
+    // A wait returns the interrupts that it has read to find the end.
     done(card().TCurve_F(axis_y, 10, 500, 400, 200));
     finish(axis_y);
     EXPECT_EQ(card().read_interrupts(1), cause::drive_end);

@@ -1,5 +1,5 @@
-// The card of the contract tests here: a new virtual chip for each test. MOTIONRACK_VARIANT=mcx314as in the environment
-// selects the other variant, which must do everything that the original does.
+// Provides a new virtual chip for each contract test. MOTIONRACK_VARIANT=mcx314as in the environment selects that
+// variant, which must do everything that the original does.
 #include <cstdlib>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/test/contract_port.hpp>

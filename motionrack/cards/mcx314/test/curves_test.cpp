@@ -1,4 +1,4 @@
-// Plans against the virtual chip: every pulse at its planned tick.
+// Compares plans with the virtual chip: every pulse must come at its planned tick.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -10,7 +10,7 @@
 namespace motionrack::mcx314 {
 namespace {
 
-/// Ticks of the pulses, counted from the command.
+/// Returns the planned ticks of the pulses, counted from the command.
 std::vector<std::int64_t> planned_pulses(const CurveData& data, CurvePlan& plan) {
     std::vector<std::int64_t> out;
     plan = *plan_drive(data, [&](const CurveSpan& span) {
@@ -24,7 +24,8 @@ std::vector<std::int64_t> planned_pulses(const CurveData& data, CurvePlan& plan)
     return out;
 }
 
-/// The same drive on the chip; a continuous one is stopped at its speed, as in plan_drive().
+/// Returns the ticks of the pulses of the same drive on the chip; a continuous drive is stopped at its speed, as in
+/// plan_drive().
 std::vector<std::int64_t> made_pulses(const CurveData& data) {
     DriverRig rig(true, Duration{0});
     Driver& d = rig.driver;
@@ -74,7 +75,7 @@ TEST(Curves, MakeThePulsesOfTheChip) {
         data.s_curve = true;
         data.K = 30;
         expect_same(data);
-        data.A = 90;  // reached: the middle of the ramps is straight
+        data.A = 90;  // A is reached, so the middle of the ramps is straight
         expect_same(data);
         data.asymmetric = true;
         data.D = 50;

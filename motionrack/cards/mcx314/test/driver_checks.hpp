@@ -1,4 +1,4 @@
-// Checks of the function library's results and of the pulses.
+// Checks of results of the function library, and of pulses.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ inline void done(const Result<void>& result) {
     ASSERT_TRUE(result) << result.error().message;
 }
 
-/// Pulses/s between the last pulses of an axis.
+/// Returns the mean rate of the last pulses of an axis, pulses/s.
 inline double last_rate(const outside::EdgeLog& log, std::size_t pulses) {
     const auto& list = log.list;
     const std::int64_t ticks = list.back().tick - list[list.size() - 1 - pulses].tick;

@@ -1,4 +1,4 @@
-// Lines, arcs, chains and patterns of the function library on a virtual chip: ends, speeds, and refusals.
+// Tests of lines, arcs, chains and patterns of the function library on a virtual chip: ends, speeds, and refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ TEST(DriverPaths, ArcsWithATrapezoidEndAtTheirInitialSpeed) {
             done(d.wait_until_done(0x3, max_wait));
             EXPECT_EQ(d.ReadLPS(0), 3'000);
             rig.deliver_edges();
-            // The regular axis at the end is X: it steps at each basic pulse.
+            // At the end X is the axis that steps at each basic pulse.
             EXPECT_NEAR(last_rate(rig.edges[0], 1), 200, 60);
             EXPECT_GT(last_rate(rig.edges[0], 100), 400) << "and does not creep";
         }
@@ -56,7 +56,7 @@ TEST(DriverPaths, AChainKeepsItsSpeedAtJunctionsAndDeceleratesInItsLastSegment) 
     const auto& x = rig.edges[0].list;
     for (std::size_t i = 1'200; i < 1'900; ++i) EXPECT_LE(x[i].tick - x[i - 1].tick, 1'001) << i;  // 8,000 pulses/s
     for (std::size_t i = 2'800; i < 5'000; ++i)
-        EXPECT_LE(x[i].tick - x[i - 1].tick, 2'001) << i;  // 4,000 from segment 3 on
+        EXPECT_LE(x[i].tick - x[i - 1].tick, 2'001) << i;  // 4,000 pulses/s from segment 3 on
     for (std::size_t i = 2'800; i < 5'000; ++i) EXPECT_GE(x[i].tick - x[i - 1].tick, 1'999) << i;
     EXPECT_NEAR(last_rate(rig.edges[1], 1), 200, 60);
 }
@@ -73,7 +73,7 @@ TEST(DriverPaths, ATooShortLastSegmentOfAChainLowersTheSpeedOfTheSegmentsBefore)
     EXPECT_EQ(outcome->end_speed, 20);
     rig.deliver_edges();
     EXPECT_NEAR(last_rate(rig.edges[0], 1), 200, 60);
-    // If no segment has room for the deceleration, it is reported.
+    // Without a segment long enough for the deceleration, the result reports the end speed.
     done(d.ContStart({20, 800, 800, 0}));
     done(d.ContLine(0x3, {3'000, 0}));
     done(d.ContLine(0x3, {3, 1}));
@@ -123,7 +123,7 @@ TEST(DriverPaths, ALineEndsAnOpenChainOrPattern) {
     done(d.wait_until_stopped(xyzu, max_wait));
     done(d.Line2D_T({10, 500, 100, 0, 0, {0, 20'000, 5'000}}, 0x6));
     rig.port.pass(milliseconds(500));
-    done(d.change_speed(axis_y, 100));  // Y leads, not the chain's X
+    done(d.change_speed(axis_y, 100));  // Y is the main axis of the line, not the chain's X
     EXPECT_FALSE(d.ContLine(0x3, {9'000, 0}));
     done(d.stop(axis_y, StopKind::quick));
 }
@@ -186,7 +186,7 @@ TEST(DriverPaths, SpeedsInAChainAreThoseOfTheActiveSegment) {
     done(d.LPS(axis_x, 123'456));
     done(d.ContStart({0, 1'000, 0, 0}));
     done(d.ContLine(0x3, {10'000, -5'000}));
-    done(d.ContArc(0x5, {20'000, 0, 20'000}, {0, 0, 20'000}, false));  // Z joins
+    done(d.ContArc(0x5, {20'000, 0, 20'000}, {0, 0, 20'000}, false));  // Z takes part from here on
     done(d.ContLine(0x3, {-10'000, 1'000}));
     for (int sample = 0; sample < 36; ++sample) {
         const auto reported = d.axis_speeds();

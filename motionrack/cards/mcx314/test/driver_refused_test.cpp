@@ -1,5 +1,5 @@
-// Refusals of the function library: the message contains the range, and no register is written, whichever of several
-// axes is wrong.
+// Tests of refusals of the function library: the message contains the range, and no register is written, whichever of
+// several axes is wrong.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -35,14 +35,14 @@ class StillClock final : public Interrupt {
     Instant now_{};
 };
 
-/// A card that is set up; later writes are errors.
+/// A card that is set up; after forbid_writing() a write is an error.
 class DriverRejects : public testing::Test {
   protected:
     void set_up() {
         EXPECT_TRUE(driver_.SetMultiple(axis_x | axis_y | axis_z, 10));
         EXPECT_TRUE(driver_.SetSV(axis_x, 10));
     }
-    /// RR0 reads `main`; every other register 0.
+    /// Makes every later write an error. RR0 reads as `main`, every other register as 0.
     void forbid_writing(std::uint16_t main = 0) {
         testing::Mock::VerifyAndClearExpectations(&port_);
         EXPECT_CALL(port_, write(_, _)).Times(0);
@@ -224,7 +224,7 @@ TEST_F(DriverRejects, ImpossibleLinesAndArcs) {
              return d.CircleCCW_C({0, 100, 0, 0, {10, 0}, {5, 9'000'000}}, 0x3);
          },
          "centre C of Y is 9000000"},
-        // Its finish is not on the circle.
+        // The finish point is not on the circle.
         {[](Driver& d) {
              return d.CircleCW_C({0, 100, 0, 0, {10'000, 20'000}, {5'000, 0}}, 0x3);
          },
@@ -347,7 +347,7 @@ TEST_F(DriverRejects, RealValuesThatTheChipDoesNotReach) {
     expect_refused(to_pulses({200}, 1e9), "at most 2147483647");
 }
 
-/// Arbitrary arguments: a call is executed, or refused without a write.
+/// Calls with arbitrary arguments are either executed, or refused without a write.
 TEST_F(DriverRejects, RejectedCallsWriteNothingWhateverTheArguments) {
     set_up();
     int writes = 0;

@@ -23,7 +23,7 @@ class DriverRig {
         kernel.force(kernel.find_wire("c." + pin), level);
         kernel.settle();
     }
-    /// Pulses of an axis since the start, independent of LP.
+    /// Returns the pulses of an axis since the start, independent of LP.
     std::int64_t count(int axis) { return chip.pulses(axis).count(kernel.now()); }
     void deliver_edges() {
         for (int i = 0; i < 4; ++i) chip.pulses(i).deliver_edges();

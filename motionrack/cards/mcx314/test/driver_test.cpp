@@ -1,4 +1,4 @@
-// The function library on a virtual chip with wires: its messages, and the instants of the pulses.
+// Tests of the function library on a virtual chip with wires: its messages, and the instants of the pulses.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -85,13 +85,13 @@ TEST(DriverFlight, RejectsASpeedChangeThatTheChipWouldIgnore) {
     done(d.wait_until_done(axis_x, max_wait));
     EXPECT_EQ(d.ReadLPS(0), 30'000);
 
-    // If the counter was set in the meantime, the pulses made are unknown.
+    // After LPS() the library does not know the number of pulses made.
     done(d.TCurve_F(axis_z, 10, 1'000, 1'000, 4'000));
     done(d.LPS(axis_z, 77));
     const Result<void> unknown = d.change_pulses(2, 5'000);
     ASSERT_FALSE(unknown);
     EXPECT_THAT(unknown.error().message, HasSubstr("that this library started"));
-    // The last pulses at SV belong to the end too.
+    // The last pulses at SV belong to the final deceleration, too.
     done(d.SetAO(axis_z, 500));
     while (!(d.axis_status(2).constant() && d.ReadCV(2) == 10)) rig.port.pass(milliseconds(1));
     EXPECT_FALSE(d.change_speed(axis_z, 500));

@@ -1,4 +1,4 @@
-// The exact register traffic of the function library, on a recording port.
+// Tests of the exact register accesses of the function library, on a recording port.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -19,7 +19,7 @@ std::ostream& operator<<(std::ostream& out, const PortAccess& access) {
     return out << access.kind << access.offset << '=' << std::hex << access.value << std::dec;
 }
 
-/// Registers return `levels`; all accesses are recorded. Time passes only during waits.
+/// Records all accesses; reads return `levels`. Time passes only during waits.
 class Notebook final : public RegisterPort, public Interrupt {
   public:
     void write(std::uint32_t offset, std::uint16_t value) override { list.push_back({'w', offset, value}); }
@@ -182,7 +182,7 @@ TEST_F(DriverTraffic, ConstantVectorSpeedDoesNotChangeTheRangeOfALaterSingleAxis
     EXPECT_EQ(driver_.written(1, cmd::R), 4'000'000);
 }
 
-/// The order of the maker's sample: patterns on, data, stack, .., start, .., patterns off.
+/// The order of the accesses is that of the maker's sample: patterns on, data, stack, .., start, .., patterns off.
 TEST_F(DriverTraffic, ABitPatternIsStackedStartedAndClosed) {
     EXPECT_TRUE(driver_.SetMultiple(xyzu, 1));
     EXPECT_TRUE(driver_.BP2D({0, 100, 0, 0}, 0x6));
@@ -201,7 +201,7 @@ TEST_F(DriverTraffic, ABitPatternIsStackedStartedAndClosed) {
                                                      w0(0, cmd::BP_STACK)}));
     EXPECT_TRUE(driver_.BPStart());
     EXPECT_EQ(port_.take(), (std::vector<PortAccess>{w0(0, cmd::BP2)}));
-    // Registers that share their offsets with the pattern's are accessible nevertheless.
+    // Registers that share their offsets with those of the pattern are accessible nevertheless.
     EXPECT_TRUE(driver_.SetV(axis_x, 7));
     EXPECT_TRUE(driver_.HLMTP(1, axis_x));
     EXPECT_TRUE(driver_.SetOutput(axis_x, 0, true));
@@ -209,12 +209,12 @@ TEST_F(DriverTraffic, ABitPatternIsStackedStartedAndClosed) {
                                                      w0(1, cmd::V), w0(0, cmd::BP_ENABLE), w0(0, cmd::BP_DISABLE),
                                                      w0(1, cmd::NOP), w(reg::WR2, 8), w0(0, cmd::BP_ENABLE),
                                                      w0(0, cmd::BP_DISABLE), w(reg::WR4, 1), w0(0, cmd::BP_ENABLE)}));
-    // Y and Z drive, three words are stacked: the stack stays full within the time.
+    // Y and Z drive and three words are stacked: the stack stays full until the timeout.
     port_.levels[0] = 0x6006;
     const Result<void> full = driver_.BPStack(word, milliseconds(1));
     ASSERT_FALSE(full);
     EXPECT_NE(full.error().message.find("had no room for 0.001 s"), std::string::npos);
-    // The drive ended before its next word arrived.
+    // The drive ended before its next word was stacked.
     port_.levels[0] = 0;
     port_.take();
     const Result<void> late = driver_.BPStack(word);
@@ -250,14 +250,14 @@ TEST_F(DriverTraffic, StepsByCommand) {
     EXPECT_EQ(port_.take(), (std::vector<PortAccess>{{'r', reg::RR0, 0}, w(reg::WR5, 0x1000), w0(0, cmd::STEP)}));
     EXPECT_TRUE(driver_.SetStep(StepBy::wire));
     EXPECT_EQ(port_.take().back(), w(reg::WR5, 0x0800));
-    // The mode is kept when a line selects its axes.
+    // The mode remains when a line selects its axes.
     EXPECT_TRUE(driver_.SetRange(8'000'000));
     EXPECT_TRUE(driver_.Line2D_C({0, 100, 0, 0, 0, {10, 10}}, 0x3));
     const std::vector<PortAccess> all = port_.take();
     EXPECT_EQ(all[all.size() - 2], w(reg::WR5, 0x0804));
 }
 
-/// Each wait ends: on a card that drives without end, with a stuck interrupt line, and with a sleeping one.
+/// Each wait ends: on a card that drives without end, with an interrupt line that is always or never active.
 TEST_F(DriverTraffic, EveryWaitHasATimeout) {
     EXPECT_TRUE(driver_.SetMultiple(xyzu, 1));
     EXPECT_TRUE(driver_.ContStart({0, 100, 0, 0}));
@@ -265,7 +265,7 @@ TEST_F(DriverTraffic, EveryWaitHasATimeout) {
     EXPECT_TRUE(driver_.ContLine(0x3, {10, 10}));
     for (const bool stuck : {false, true}) {
         port_.line_stuck = stuck;
-        port_.levels[0] = 0x010F;  // all axes drive, an interpolation, no room
+        port_.levels[0] = 0x010F;  // all axes drive, an interpolation runs, the stack is full
         const Instant before = port_.now();
         const std::vector<std::function<Result<void>()>> waits = {
             [this] { return driver_.wait_until_stopped(xyzu, milliseconds(10)); },

@@ -1,6 +1,6 @@
-// The source's four homing functions on random machines: with any start position, any switch position, any input as the
-// origin, with and without an index. Each ends at home or with a message, and none passes a limit. MOTIONRACK_SEED=N
-// selects the machines, MOTIONRACK_HOMINGS=N their number.
+// Tests the source's four homing functions on random machines: with any start position, any switch position, any input
+// as the origin, with and without an index. Each homing ends at home or with a message, and none passes a limit.
+// MOTIONRACK_SEED=N selects the machines, MOTIONRACK_HOMINGS=N their number.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Distance of the rotor beyond a range, pulses.
+/// Measures how far the rotor goes beyond a range, pulses.
 class Beyond final : sim::PositionListener {
   public:
     Beyond(sim::PositionFunction& rotor, std::int64_t low, std::int64_t high)
@@ -46,13 +46,13 @@ struct Homing {
     Index index = Index::wired;
     std::int64_t sv = 50, v = 1000, a = 100;
 
-    /// Number of the index's input IN0 .. IN3.
+    /// Returns the number of the index's input IN0 .. IN3.
     int index_input() const { return input == 2 ? 3 : 2; }
     unsigned wr1() const {
         const unsigned origin = (high ? 3u : 2u) << 2 * input;
         return type >= 3 ? origin | 1u << 2 * index_input() : origin;
     }
-    /// From V to SV, pulses; the multiple is 10.
+    /// Returns the pulses of a deceleration from V to SV, plus 5 %; the multiple is 10.
     std::int64_t braking() const {
         const double fast = 10.0 * static_cast<double>(v), slow = 10.0 * static_cast<double>(sv);
         return static_cast<std::int64_t>((fast * fast - slow * slow) / (2 * 1'250.0 * static_cast<double>(a)) * 1.05);
@@ -60,8 +60,8 @@ struct Homing {
     std::int64_t pulses_to(double mm) const {
         return static_cast<std::int64_t>(std::floor((mm - axis.start_mm) * pulses_per_mm + 1e-6));
     }
-    /// The switch is far enough from the limit that the longest distance beyond it (deceleration, then a revolution)
-    /// fits. Type 2 ends at the switch itself.
+    /// Returns true if the switch is so far from the limit that the longest distance beyond it (deceleration, then a
+    /// revolution) fits. Type 2 ends at the switch itself.
     bool must_succeed() const {
         const std::int64_t room = pulses_to(axis.home_mm) - pulses_to(axis.limit_minus_mm);
         if (type == 2) return room >= 0;
@@ -89,10 +89,10 @@ Homing drawn(std::uint64_t seed) {
     out.v = out.sv + below(1'500);
     out.a = 50 + below(350);
     RigAxis& axis = out.axis;
-    // In the middle of travel, close to the limit, at it, and behind it.
+    // The switch: in the middle of the travel, close to the limit, at it, and behind it.
     axis.home_mm = axis.limit_minus_mm + std::array{9 + 0.5 * below(8), 0.01 * below(200), 0.0, -0.3}[below(4) % 4];
     axis.limit_plus_mm = 60;
-    // Beside the switch, on it or at a limit.
+    // The start: beside the switch, on it, or at a limit.
     axis.start_mm = std::array{5.0 + below(40), axis.home_mm, axis.home_mm - 0.5 * below(3), axis.limit_minus_mm,
                                axis.limit_plus_mm}[static_cast<std::size_t>(below(5))];
     axis.hysteresis_mm = std::array{0.0, 0.05, 0.4}[static_cast<std::size_t>(below(3))];
@@ -125,7 +125,7 @@ void expect_an_end(const Homing& homing) {
     EXPECT_EQ(rig.machines[0]->lost_steps(), 0);
     if (!done) {
         EXPECT_THAT(done.error().message, AllOf(HasSubstr("Axis X is not homed: "), HasSubstr("again.")));
-        // If an axis stops exactly at an index, type 3 reports it; that position depends on the ramp.
+        // Type 3 reports an index that is active where the axis stops; that position depends on the ramp.
         const bool at_index =
             homing.type == 3 && done.error().message.find("is active at the switch edge") != std::string::npos;
         EXPECT_FALSE(homing.must_succeed() && !at_index) << done.error().message;
@@ -136,7 +136,7 @@ void expect_an_end(const Homing& homing) {
     EXPECT_EQ(rig.driver.ReadEPS(0), 0);
     const bool at_origin = homing.type == 2 || homing.type == 4;
     if (at_origin) {
-        // If the switch is at a whole pulse, rounding decides whether that pulse acts.
+        // If the switch is exactly at a whole pulse, rounding decides whether it acts at that pulse.
         EXPECT_NEAR(static_cast<double>(rig.rotor()), static_cast<double>(homing.pulses_to(homing.axis.home_mm)), 1);
     }
     if (homing.type == 3 && homing.index == Index::wired) {

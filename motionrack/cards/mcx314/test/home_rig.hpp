@@ -1,5 +1,5 @@
-// A machine for homing: the chip, its driver on a virtual bus, and for each axis motor, leadscrew, limit and home
-// switches, encoder with index.
+// A machine for tests of homing: the chip, its driver on a virtual bus, and for each axis a motor, a leadscrew, limit
+// and home switches, and an encoder with index.
 //
 //   driver ──► VirtualPort ──► chip ──pulses──► axis machine ──home──► xin0, ──enc_z──► xin2, ──limits──► xlmtp, xlmtm
 #pragma once
@@ -20,7 +20,8 @@ namespace motionrack::mcx314 {
 inline constexpr double pulses_per_mm = 640;
 inline constexpr std::int64_t pulses_per_turn = 3200;
 
-/// 5 mm per revolution, 300 mm of travel; the home switch acts at and below 1 mm, limit switches at -8 and 302 mm.
+/// Settings of an axis: 5 mm per revolution, 300 mm of travel; the home switch acts at and below 1 mm, limit switches
+/// at -8 and 302 mm.
 struct RigAxis {
     double start_mm = 20;
     double home_mm = 1;
@@ -31,7 +32,7 @@ struct RigAxis {
     bool wired_home = true;
     bool wired_index = true;
     int home_level = 0;           ///< level of the home switch's wire while active
-    double start_stop_hz = 4000;  ///< jump of the pulse rate that the motor follows
+    double start_stop_hz = 4000;  ///< step of the pulse rate that the motor follows without step loss
 
     parts::AxisMechanicsSettings machine() const {
         parts::AxisMechanicsSettings s;
@@ -51,10 +52,10 @@ struct RigAxis {
     }
 };
 
-/// A switch that is active only between two positions, so an axis can stop beyond it. Mounted on a machine's table.
+/// A switch that is active only between two positions, so an axis can stop beyond it. It is moved by an axis.
 class Cam final : public sim::Device, private sim::PositionListener {
   public:
-    /// From `low` to `high`, rotor pulses since the start. The wire `name` is 0 in between.
+    /// Adds a switch that is active (the wire `name` is 0) from `low` to `high`, rotor pulses since the start.
     Cam(sim::Kernel& kernel, const std::string& name, parts::AxisMechanics& machine, std::int64_t low,
         std::int64_t high)
         : kernel_(kernel),
@@ -110,7 +111,7 @@ class HomeRig {
         }
     }
     void join(sim::WireId from, const std::string& to) { junctions_.join(from, kernel.find_wire(to)); }
-    /// Starts virtual time; the chip is reset, with pulse and direction and decelerating limit switches.
+    /// Starts the virtual time, and resets the chip: pulse and direction, decelerating limit switches.
     void start() {
         kernel.start();
         kernel.run_until(Instant{0});

@@ -1,4 +1,4 @@
-// The source's four homing functions: their inputs, paths and speeds.
+// Tests of the source's four homing functions: their inputs, paths and speeds.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ const ChipHomingStateVisit& stay_in(const HomeReport& report, std::string_view s
     return report.stays.front();
 }
 
-/// Pulses/s of the chip's clock, in a state of constant speed.
+/// Returns the speed in a state of constant speed, pulses/s.
 double speed_in(const HomeReport& report, std::string_view state) {
     const ChipHomingStateVisit& stay = stay_in(report, state);
     return std::fabs(static_cast<double>(pulse_delta(stay.from_lp, stay.to_lp))) / to_seconds(stay.took);
@@ -129,7 +129,7 @@ TEST(HomingBySource, ReportsAnOriginTooCloseToTheLimitForDeceleration) {
 }
 
 TEST(HomingBySource, Type4ReportsAMissingIndexAtTheLimit) {
-    HomeRig rig({RigAxis{.home_mm = -7.8}});  // its next index is at -10 mm
+    HomeRig rig({RigAxis{.home_mm = -7.8}});  // the next index is at -10 mm, beyond the limit
     rig.start();
     const auto done = HomeType4(rig.driver, axis_x, origin_in0, 50, 1000, 100);
     ASSERT_FALSE(done);

@@ -1,4 +1,5 @@
-// Interrupted homing, several axes at once, random positions: validity of the position afterwards, and standstill.
+// Tests of interrupted homings, several axes at once and random positions: the position is valid only after success,
+// and the axis stands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -33,7 +34,7 @@ TEST(HomingStops, StopIsAcceptedInEveryStateAndThePositionIsNotValid) {
             Home one(rig.driver, 0);
             ASSERT_TRUE(one.start(rig_settings(type), rig.port.now()));
             step_until(rig, one, [&] { return one.state() == state.name; });
-            if (!one.running()) continue;  // this start does not lead there
+            if (!one.running()) continue;  // the homing from this start does not pass the state
             one.stop();
             run_out(rig, one);
             EXPECT_FALSE(rig.driver.moving(1)) << state.name;
@@ -194,7 +195,7 @@ RC_GTEST_PROP(HomingProperty, FromAnywhereEveryTypeEndsWhereItDoesFromElsewhere,
         axis.start_mm = 5 * *rc::gen::inRange(-1, 12);
         HomeRig rig({axis});
         rig.start();
-        // Off the grid: the exact position is random, too.
+        // Moves off the grid, so that the start position within a revolution is random, too.
         const std::int64_t off = *rc::gen::inRange(0, 1500);
         RC_ASSERT(bool(rig.driver.TCurve_F(1, 50, 500, 100, off)));
         RC_ASSERT(bool(rig.driver.wait_until_stopped(1, whole_seconds(10))));
@@ -203,7 +204,7 @@ RC_GTEST_PROP(HomingProperty, FromAnywhereEveryTypeEndsWhereItDoesFromElsewhere,
         RC_ASSERT(rig.driver.ReadLPS(0) == 0);
         RC_ASSERT(rig.driver.ReadEPS(0) == 0);
         RC_ASSERT(rig.machines[0]->lost_steps() == 0);
-        // The edge of the search was at the reported position, despite bounce and rare polls.
+        // The report contains the true position of the edge, despite bounce and rare polls.
         const std::int64_t edge = static_cast<std::int64_t>(axis.home_mm * pulses_per_mm) -
                                   static_cast<std::int64_t>(axis.start_mm * pulses_per_mm);
         for (const ChipHomingEdge& seen : report->edges) {

@@ -1,4 +1,5 @@
-// Homing on the complete simulated machine: every type from every position, with bounce, missing switches, stops.
+// Tests of homing on a complete simulated machine: every method from every position, with bounce, missing switches,
+// stops.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The states passed, without stationary ones.
+/// Returns the states passed, without START states.
 std::string states_of(const HomeReport& report) {
     std::string out;
     for (const ChipHomingStateVisit& stay : report.stays) {
@@ -20,7 +21,7 @@ std::string states_of(const HomeReport& report) {
     return out;
 }
 
-/// The first position at or below 1 mm, in pulses from `start_mm`.
+/// Returns the first position at or below 1 mm, in pulses from `start_mm`.
 std::int64_t switch_pulses(double start_mm) {
     return static_cast<std::int64_t>(640 * (1 - start_mm));
 }
@@ -33,7 +34,7 @@ TEST(Homing, Type1DeceleratesAtTheSwitchAndHomeIsTheStopPosition) {
     EXPECT_EQ(states_of(*done), "SEARCH_WAIT HOMED");
     EXPECT_EQ(rig.driver.ReadLPS(0), 0);
     EXPECT_EQ(rig.driver.ReadEPS(0), 0);
-    // 10,000 to 500 pulses/s with 125,000 pulses/s2: 399 pulses beyond the edge.
+    // Decelerating from 10,000 to 500 pulses/s with 125,000 pulses/s2 takes 399 pulses beyond the edge.
     const std::int64_t beyond = switch_pulses(20) - rig.rotor();
     EXPECT_NEAR(static_cast<double>(beyond), (1e8 - 25e4) / 2 / 125'000, 12);
     EXPECT_EQ(done->zero_lp, rig.rotor());
@@ -115,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(Types, EachType, testing::Values(1, 2, 3, 4, 5));
 TEST_P(EachType, EndsAtTheSamePulseFromOffTheSwitchOnItAndAtTheLimit) {
     std::vector<double> ends;
     for (const double start : {20.0, 200.0, 1.5, 1.025, 1.0, 0.0, -1.0, -8.0, -8.5, 302.5}) {
-        if (GetParam() == 4 && start == 1.0) continue;  // there its index is at the switch's edge
+        if (GetParam() == 4 && start == 1.0) continue;  // from there, an index is at the switch's edge
         HomeRig rig({RigAxis{.start_mm = start}});
         rig.start();
         const Result<HomeReport> done = home(rig.driver, 0, rig_settings(GetParam()));
@@ -259,7 +260,7 @@ TEST(Homing, RefusesAnIndexAtTheSwitchItself) {
 
 // ---- starting conditions
 
-/// A cam of 8 mm, its edges in pulses from the start of the axis.
+/// A machine with a cam switch; the edges of the cam are in pulses from the start of the axis.
 struct CamRig : HomeRig {
     explicit CamRig(std::int64_t low, std::int64_t high)
         : HomeRig({RigAxis{.wired_home = false}}), cam(kernel, "cam", *machines[0], low, high) {
@@ -280,7 +281,7 @@ TEST(Homing, ReversesAtTheLimitBehindAShortSwitchAndFindsTheSameEdge) {
 }
 
 TEST(Homing, ASwitchShorterThanTheStoppingDistanceIsFoundAfterReversing) {
-    CamRig rig(-7060, -7000);  // 60 pulses wide, decelerating takes 400
+    CamRig rig(-7060, -7000);  // the cam is 60 pulses wide, and decelerating takes 400
     rig.start();
     const Result<HomeReport> done = home(rig.driver, 0, rig_settings(2));
     ASSERT_TRUE(done) << done.error().message;

@@ -1,4 +1,4 @@
-// The declared functions, by which pages and Python call: each writes the same registers as the C++ function of its
+// Tests the declared functions, which pages and Python call: each writes the same registers as the C++ function of its
 // name with the same numbers, and the homing functions end at home.
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 namespace motionrack::mcx314 {
 namespace {
 
-/// Lists what is written.
+/// Records the writes to a port.
 class WrittenPort final : public RegisterPort {
   public:
     explicit WrittenPort(RegisterPort& port) : port_(port) {}
@@ -39,7 +39,7 @@ std::int64_t home_between_limits(Driver& driver) {
     return 0;
 }
 
-/// Arguments in the order of the declaration, each with a number of its own, and the same call of the C++ function.
+/// A function with arguments in the order of the declaration, all different, and the same call of the C++ function.
 struct BoundCall {
     std::string_view name;
     std::vector<std::int64_t> values;
@@ -178,7 +178,7 @@ std::vector<BoundCall> bound_calls() {
     return out;
 }
 
-/// Between two limit switches that act.
+/// Makes both limit switches of X act.
 void enclose(DriverRig& rig) {
     rig.wire("xlmtm", 0);
     rig.wire("xlmtp", 0);
@@ -237,7 +237,7 @@ TEST(DeclaredLibrary, EachOfThe57FunctionsWritesWhatTheCppFunctionWrites) {
 
 // ---- homing
 
-/// Where the rig's axis stands after the homing function, pulses from its start at 20 mm; its switch is at -12,160.
+/// Returns the rotor position after the homing function, pulses from its start at 20 mm; the switch is at -12,160.
 std::int64_t rotor_homed_by(std::string_view name) {
     HomeRig rig;
     rig.start();

@@ -1,4 +1,4 @@
-// The library's declaration for forms: the same functions as the C header, ranges accepted by the chip's driver,
+// Tests the declaration of the library for forms: the same functions as the C header, ranges that the driver accepts,
 // results as text, and stops that end waiting functions.
 #include <gtest/gtest.h>
 
@@ -30,14 +30,14 @@ struct LibraryRig : DriverRig {
     Library library{port, port};
 };
 
-/// Initial values of a form.
+/// Returns the initial values of the form of a function.
 Arguments starts_of(const FunctionInfo& function) {
     Arguments out;
     for (const ArgumentInfo& one : function.arguments) out[std::string(one.name)] = one.start;
     return out;
 }
 
-/// "int axis, int data" as {"axis", "data"}; structures as their members.
+/// Returns the names in a declaration: "int axis, int data" gives {"axis", "data"}; a structure gives its members.
 std::set<std::string> names_of(const std::string& list) {
     std::set<std::string> out;
     const std::regex name(R"((\w+)\s*(,|$))");
@@ -88,7 +88,7 @@ TEST(DeclaredLibrary, AcceptsTheInitialValuesOfItsForms) {
         if (function.waits) continue;
         LibraryRig rig;
         ASSERT_TRUE(rig.call("SetRange", {{"data", 800'000}}));
-        if (function.name == "pattern_start") continue;  // needs steps
+        if (function.name == "pattern_start") continue;  // needs pattern steps before
         const Result<CallAnswer> answer = rig.call(function.name, starts_of(function));
         ASSERT_TRUE(answer) << function.name << ": " << answer.error().message;
         EXPECT_FALSE(answer->text.empty()) << function.name;
@@ -192,7 +192,7 @@ TEST(DeclaredLibrary, StopsAtOnceInAFunctionThatWaits) {
     EXPECT_FALSE(rig.library.moving());
 }
 
-/// A stop is requested at the nth access.
+/// Requests a stop at the nth access.
 class StoppedAt final : public RegisterPort {
   public:
     StoppedAt(RegisterPort& port, std::atomic<bool>& stop) : port_(port), stop_(stop) {}
@@ -233,7 +233,7 @@ TEST(DeclaredLibrary, StartsNoDriveAfterAStopBetweenAnyTwoAccesses) {
         ASSERT_TRUE(checked) << checked.error().message;
         port.left = n;
         (void)library.call(checked->function, checked->values);
-        ended = !stop;  // the function had ended before
+        ended = !stop;  // the function had ended before the stop
         port.left = 1'000'000;
         stop = true;
         library.stop_now();
@@ -247,7 +247,7 @@ TEST(DeclaredLibrary, StartsNoDriveAfterAStopBetweenAnyTwoAccesses) {
 TEST(DeclaredLibrary, ReportsHowAHomingFailed) {
     LibraryRig rig;
     ASSERT_TRUE(rig.call("SetRange", {{"data", 800'000}}));
-    rig.wire("xlmtm", 0);  // at the end of the travel, and at the other one too
+    rig.wire("xlmtm", 0);  // both limit switches are active
     rig.wire("xlmtp", 0);
     const Result<CallAnswer> answer = rig.call("HomeType2", {{"WR1Reg", 2}, {"SV", 100}, {"V", 1000}, {"A", 100}});
     ASSERT_FALSE(answer);

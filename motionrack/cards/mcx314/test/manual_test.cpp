@@ -1,4 +1,4 @@
-// Manual operation on the simulated machine, with the time as an argument.
+// Tests of manual operation on the simulated machine; the tests pass the time as an argument.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -195,8 +195,8 @@ TEST(Manual, HasTheStatesOfTheDeclaredStateTable) {
     EXPECT_EQ(rig.manual.state_name(), "jogging");
 }
 
-/// Compares each change of state with the declared table. A call may pass through standing: jog() notices first that
-/// the motion before has ended.
+/// Compares each change of state with the declared table. A call may pass through standing, because jog() notices first
+/// that the previous motion has ended.
 struct WatchedManual : ManualRig {
     std::set<std::string> taken;
     std::string problem;
@@ -220,7 +220,7 @@ struct WatchedManual : ManualRig {
         if (take(from, ManualState::standing) && take(ManualState::standing, to)) return;
         problem += std::to_string(static_cast<int>(from)) + " -> " + std::to_string(static_cast<int>(to)) + "; ";
     }
-    /// A poll every millisecond, each with `call` behind it.
+    /// Polls every millisecond, and calls `call` after each poll.
     template <class Call>
     void poll(int ms, const Call& call) {
         for (int i = 0; i < ms; ++i) {
@@ -244,11 +244,11 @@ struct WatchedManual : ManualRig {
 TEST(Manual, TakesEveryTransitionOfItsStateTableAndNoOther) {
     WatchedManual rig;
     rig.jog(300, 900);
-    rig.jog(200, -400);  // turns
+    rig.jog(200, -400);  // reverses
     rig.jog(2, 400);
-    rig.watch([&] { rig.last = rig.manual.jog(0, rig.now()); });  // stops within the turn
-    rig.jog(300, 400);                                            // turns out of the stop
-    rig.poll(600);                                                // not renewed
+    rig.watch([&] { rig.last = rig.manual.jog(0, rig.now()); });  // stops during the reversal
+    rig.jog(300, 400);                                            // reverses out of the stop
+    rig.poll(600);                                                // without renewal
     rig.watch([&] { rig.last = rig.manual.step_jog(100, 400); });
     rig.poll(400);
     rig.watch([&] { rig.last = rig.manual.step_jog(100'000, 400); });
@@ -256,7 +256,7 @@ TEST(Manual, TakesEveryTransitionOfItsStateTableAndNoOther) {
     rig.watch([&] { rig.manual.stop(); });
     rig.poll(200);
     rig.watch([&] { rig.last = rig.manual.home(rig_settings(2), rig.now()); });
-    rig.poll(900);  // not renewed
+    rig.poll(900);  // without renewal
     rig.jog(200, 500);
     rig.hold_wire("c.xlmtp", 0);
     rig.jog(200, 500);  // the limit ends the jog
@@ -264,7 +264,7 @@ TEST(Manual, TakesEveryTransitionOfItsStateTableAndNoOther) {
     rig.jog(200, -500);
     rig.jog(2, 400);
     rig.hold_wire("c.xlmtp", 0);
-    rig.poll(200);  // stands at the limit of the new direction
+    rig.poll(200);  // stops at the limit of the new direction
     EXPECT_EQ(rig.problem, "");
     for (const TransitionInfo& t : manual_machine().transitions) {
         const std::string way = std::string(t.from) + " -> " + std::string(t.to);

@@ -1,4 +1,4 @@
-// The card's map: constants follow from the tables, and the virtual chip and the reference page match the map.
+// Tests of the card's map: constants follow from the tables, and the virtual chip and the reference page match the map.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -45,7 +45,7 @@ TEST(Mcx314Map, DeclaresTheHomingStatesThatHmstShows) {
     FAIL() << "the map has no home search";
 }
 
-// True if a new chip accepts a command code; false if it reports the code as unknown.
+// Returns true if a new chip accepts a command code; false if it reports the code as unknown.
 bool chip_knows(std::uint32_t code, Variant variant) {
     sim::Kernel kernel;
     Chip chip(kernel, "c", {variant});
@@ -98,7 +98,7 @@ TEST(Mcx314Map, ReadingClearsTheRegistersDeclaredSoAndNoOthers) {
         kernel.start();
         chip.write(reg::WR0, static_cast<std::uint16_t>(0x0100u | cmd::NOP));
         chip.write(reg::WR1, 0xFF00);  // every interrupt
-        chip.write(reg::WR7, 0xFFFF);  // a comparison value below the counter
+        chip.write(reg::WR7, 0xFFFF);  // makes a comparison value lower than the counter
         chip.write(reg::WR6, 0xFFF0);
         chip.write(reg::WR0, static_cast<std::uint16_t>(0x0100u | cmd::LP));
         chip.write(reg::WR0, static_cast<std::uint16_t>(0x0100u | cmd::READ_LP));

@@ -1,5 +1,6 @@
-// The event-driven chip against the tick-by-tick twin: random register programs must give the same result for the host
-// (every read, the interrupt line), for a motor (tick and direction of every pulse) and for listeners of counts only.
+// Compares the event-driven chip with the tick-by-tick twin: random register programs must give the same result for the
+// host (every read, the interrupt line), for a motor (tick and direction of every pulse) and for listeners of counts
+// only.
 //
 // tests/oracle/harness.hpp names the variables of the environment that select other and more programs.
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Generation of random register programs.
+// Generates random register programs.
 #include <algorithm>
 #include <motionrack/cards/mcx314/test/program_extension.hpp>
 
@@ -75,10 +75,9 @@ class Maker : private ExtensionActions {
     }
 
     // ---- actions
-    // ------------------------------------------------------------------------------------------------------------
     void action(std::int64_t theme) {
         if (program_.extended() && random_.one_in(4)) return extension();
-        const bool calm = busy_ < 10;  // drives are usually not disturbed
+        const bool calm = busy_ < 10;  // a program usually does not disturb its drives
         const std::int64_t roll = random_.between(0, calm && !random_.one_in(4) ? 67 : 99);
         const bool path = theme == 1 || (theme >= 2 && random_.one_in(2));
         if (roll < 26) {
@@ -114,7 +113,7 @@ class Maker : private ExtensionActions {
         if (random_.one_in(3)) data(some, 0x07, pulses());
         command(some, static_cast<int>(random_.one_in(4) ? random_.between(0x22, 0x23) : random_.between(0x20, 0x21)));
     }
-    // One drive whose speed, pulses and offset are rewritten repeatedly while it runs, with few other accesses.
+    // Starts a drive and rewrites its speed, pulses and offset repeatedly while it runs, with few other accesses.
     void retarget() {
         const unsigned axis = 1u << random_.between(0, 3);
         const std::int64_t start = start_speed(), r = range();
@@ -166,7 +165,7 @@ class Maker : private ExtensionActions {
         const Pin pin = static_cast<Pin>(random_.between(0, pin_count - 1));
         pull(axis, pin, random_.one_in(3) ? program_.ticks / 8 : 20);
     }
-    // EP moves, sometimes across its comparison value.
+    // Moves EP, sometimes across its comparison value.
     void encoder(int axis) {
         if (random_.one_in(3)) {
             mode(1u << axis, 2, 0x20 | random_.between(0, 7) << 9 | (random_.one_in(2) ? random_.between(0, 3) : 0));
@@ -238,7 +237,7 @@ class Maker : private ExtensionActions {
         read(2 * static_cast<int>(random_.between(0, 7)));
     }
 
-    bool external_ = false;  // drives by nEXPP and nEXPM
+    bool external_ = false;  // nEXPP and nEXPM start many drives
 };
 
 }  // namespace

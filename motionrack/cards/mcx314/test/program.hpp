@@ -21,7 +21,7 @@ struct Op {
     std::int8_t axis = 0;     ///< axis of the input
     Pin pin = Pin::in0;
 
-    /// Order of actions: two halves per tick, wires first.
+    /// Returns the order of the action: two halves per tick, wires first.
     std::int64_t order() const { return tick * 4 + (between ? 2 : 0) + (is_wire() ? 0 : 1); }
     bool is_wire() const {
         return kind == Kind::input || kind == Kind::emergency || kind == Kind::step || kind == Kind::encoder;
@@ -48,18 +48,18 @@ struct Program {
     bool extended() const { return options.variant == Variant::mcx314as; }
 };
 
-/// Program `number` of `seed`: always the same.
+/// Makes program `number` of `seed`; the same numbers always give the same program.
 Program make_program(std::uint64_t seed, std::uint64_t number, const ChipOptions& options = {});
 
-/// The register traffic as text, one line per op.
+/// Returns the register traffic as text, one line per op.
 std::string listing_of(const Program& program);
 
-/// splitmix64: small, and the same on every machine.
+/// Random numbers by splitmix64: small, and the same on every machine.
 class Random {
   public:
     explicit Random(std::uint64_t seed) : state_(seed) {}
     std::uint64_t next();
-    /// low .. high, both included.
+    /// Returns a number low .. high, both included.
     std::int64_t between(std::int64_t low, std::int64_t high);
     bool one_in(int n) { return between(1, n) == 1; }
     template <class T, std::size_t N>

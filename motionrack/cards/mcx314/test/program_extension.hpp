@@ -1,4 +1,5 @@
-// Random register programs, MCX314As part: extension modes, home searches, synchronous actions, bounce.
+// Generates the MCX314As parts of random register programs: extension modes, home searches, synchronous actions,
+// bounce.
 #pragma once
 
 #include <motionrack/cards/mcx314/test/program_paths.hpp>
@@ -58,7 +59,7 @@ class ExtensionActions : protected Paths {
         if (random_.one_in(2)) actions |= std::int64_t{1} << random_.between(0, 15);
         return word(actions, conditions);
     }
-    // Short pulses on an input, about as long as the shortest filter's delay.
+    // Makes short pulses on an input, about as long as the shortest filter's delay.
     void bounce() {
         const int axis = static_cast<int>(random_.between(0, 3));
         const Pin pin = static_cast<Pin>(random_.between(0, pin_count - 1));
@@ -82,7 +83,7 @@ class ExtensionActions : protected Paths {
         op.tick = now_, op.between = between_, op.kind = Op::Kind::emergency, op.value = high;
         program_.ops.push_back(op);
     }
-    // A hand wheel with lines A and B at nEXPP and nEXPM; sometimes it bounces.
+    // Turns a hand wheel with lines A and B at nEXPP and nEXPM; sometimes it bounces.
     void turn_wheel() {
         const int axis = static_cast<int>(random_.between(0, 3));
         mode(1u << axis, 3, 0x18 | random_.between(0, 3));
@@ -122,7 +123,7 @@ class ExtensionActions : protected Paths {
         input(axis, Pin::in3, true);
         now_ = back;
     }
-    // A home search with switches that act temporarily.
+    // Starts a home search with switches that act for a while.
     void search() {
         const int axis = static_cast<int>(random_.between(0, 3));
         if (random_.one_in(2)) data(1u << axis, 0x60, extension_mode());

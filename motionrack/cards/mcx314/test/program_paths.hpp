@@ -1,4 +1,4 @@
-// Random register programs: lines, arcs, chains of them, bit patterns and single steps.
+// Generates lines, arcs, chains of them, bit patterns and single steps of random register programs.
 #pragma once
 
 #include <algorithm>
@@ -62,7 +62,7 @@ class Paths : protected Traffic {
             if (n == 1 && random_.one_in(2)) command(0, 0x3B);
         }
     }
-    // Requests for single steps, by command and by wire, slower or faster than the speed allows.
+    // Requests single steps, by command and by wire, slower or faster than the speed allows.
     void steps() {
         const std::int64_t from = now_, pause = random_.between(1, random_.one_in(3) ? program_.ticks / 20 : 30);
         for (std::int64_t n = random_.between(1, 12); n > 0; --n) {
@@ -81,7 +81,7 @@ class Paths : protected Traffic {
         }
         if (random_.one_in(3)) now_ = from;
     }
-    // The six registers, whose bits mostly step one way and rarely both.
+    // Writes the six pattern registers: their bits mostly step one way and rarely both.
     void pattern_word(bool last) {
         const std::int64_t thin = random_.between(0, 0xFFFF) | (random_.one_in(2) ? 0xFFFF : 0);
         for (int i = 0; i < 3; ++i) {

@@ -52,7 +52,7 @@ std::string text_of_op(const Op& op) {
     return fmt::format("WR{} = {:04X}", number, op.value);
 }
 
-/// `wr6`, `wr7`: what the command finds there.
+/// Returns a command as text. `wr6`, `wr7`: the data that the command uses.
 std::string text_of_command(unsigned value, unsigned wr6, unsigned wr7) {
     const int code = value & 0xFF;
     std::string out = "  ";

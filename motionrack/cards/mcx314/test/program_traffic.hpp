@@ -1,4 +1,4 @@
-// Random register programs: accesses of 16 or 8 bits, wires, and the time between them.
+// Accesses of random register programs, of 16 or 8 bits, their wires, and the time between them.
 #pragma once
 
 #include <motionrack/cards/mcx314/test/program_values.hpp>
@@ -21,7 +21,7 @@ class Traffic : protected Values {
         add(Op::Kind::write, offset, value);
         if (random_.one_in(60)) gap();
     }
-    // High, then low, as WR0 requires; sometimes reversed or one only.
+    // Writes the high byte, then the low byte, as WR0 requires; sometimes in reverse, or only one of them.
     void write_bytes(int offset, std::int64_t value) {
         const int first = random_.one_in(12) ? 0 : 1;
         for (const int half : {first, 1 - first}) {
@@ -63,7 +63,7 @@ class Traffic : protected Values {
     unsigned axes() {
         return random_.one_in(2) ? 1u << random_.between(0, 3) : static_cast<unsigned>(random_.between(1, 15));
     }
-    // The encoder of an axis makes a few edges in one direction, or a line bounces.
+    // Makes a few edges of an axis' encoder in one direction, or a bounce of one line.
     void turn(int axis) {
         const std::int64_t pause = random_.one_in(3) ? program_.ticks / 100 : 2;
         const int direction = random_.one_in(2) ? 1 : -1;
@@ -79,7 +79,7 @@ class Traffic : protected Values {
         }
     }
 
-    // Low for a while, sometimes permanently.
+    // Sets an input Low for a while, sometimes permanently.
     void pull(int axis, Pin pin, std::int64_t max_ticks) {
         input(axis, pin, false);
         const std::int64_t from = now_;
@@ -101,10 +101,10 @@ class Traffic : protected Values {
         data(some, 0x07, pulses());
     }
 
-    int phase_[4] = {2, 2, 2, 2};  // of the encoders: both lines High
+    int phase_[4] = {2, 2, 2, 2};  // phases of the encoders; 2: both lines High
     std::int64_t now_ = 0;
     bool between_ = false;
-    bool bytes_ = false;  // an 8-bit bus
+    bool bytes_ = false;  // true: the program uses an 8-bit bus
     std::int64_t busy_ = 30;
 };
 

@@ -1,4 +1,4 @@
-// Values written by random register programs: mostly in range and of a relevant size, sometimes arbitrary.
+// Values that random register programs write: mostly in range and of a relevant size, sometimes arbitrary.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,6 @@ class Values {
         program_.number = number;
     }
 
-    // ---------------------------------------------------------------------------------------------------------
     std::int64_t range() {
         static constexpr std::int64_t usual[] = {16'000, 16'000, 20'000, 32'000, 50'000, 80'000, 160'000};
         if (nasty_ && random_.one_in(8)) return random_.between(0, 0x1FF'FFFF);

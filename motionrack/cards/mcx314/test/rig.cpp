@@ -1,4 +1,4 @@
-// Register programs on the twin, and outcomes as text.
+// Runs register programs on the twin, and formats outcomes as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ void sort_pulses(std::vector<Pulse>& pulses) {
     });
 }
 
-// Wires that change more than once at an instant may change an output with them; only the final level counts. A pulse
-// that begins with a change to rest does count.
+// Sorts changes and drops those that have no duration: wires that change more than once at an instant may change an
+// output with them, but only the final level counts. A pulse that begins with a change to rest counts.
 void sort_changes(std::vector<Change>& changes) {
     const auto place = [](const Change& c) { return std::tuple(c.half_tick, c.axis, c.pin); };
     std::stable_sort(changes.begin(), changes.end(),
@@ -26,7 +26,7 @@ void sort_changes(std::vector<Change>& changes) {
     std::vector<Change> settled;
     for (const Change& change : changes) {
         if (change.pin >= pulse_pins && !settled.empty() && place(settled.back()) == place(change))
-            settled.pop_back();  // there and back again
+            settled.pop_back();  // the pin has its previous level again
         else
             settled.push_back(change);
     }
@@ -62,7 +62,7 @@ class Pins {
     std::array<std::int64_t, axis_count> made_{};
 };
 
-// Returns what is read, 0 for others.
+// Executes an op; returns the value of a read, 0 for other ops.
 std::uint16_t apply(Twin& twin, const Op& op) {
     const bool level = op.value != 0;
     if (op.kind == Op::Kind::read) return twin.read(op.offset);
@@ -76,7 +76,7 @@ std::uint16_t apply(Twin& twin, const Op& op) {
     return 0;
 }
 
-// Instants at which watched ranges are left, from the pulses.
+// Computes from the pulses the instants at which watched ranges are left.
 void find_crossings(Outcome& out) {
     std::array<std::int64_t, axis_count> count{}, middle{};
     for (const Pulse& pulse : out.pulses) {
@@ -113,7 +113,7 @@ Outcome run_on_twin(const Program& program) {
     for (const Op& op : program.ops) {
         const bool wire = op.is_wire();
         const std::int64_t before =
-            op.tick - (wire && !op.between ? 1 : 0);  // a wire at the instant of a tick belongs to it
+            op.tick - (wire && !op.between ? 1 : 0);  // a wire changed exactly at a tick belongs to that tick
         run_to(before);
         Sight sight;
         sight.value = apply(twin, op);
@@ -137,7 +137,7 @@ Outcome run_on_twin(const Program& program) {
 
 namespace {
 
-/// An instant in half ticks.
+/// Formats an instant given in half ticks.
 std::string text_of_instant(std::int64_t half_tick) {
     return fmt::format("at tick {}{}", half_tick / 2, half_tick & 1 ? ".5" : "");
 }

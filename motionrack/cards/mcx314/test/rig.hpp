@@ -9,10 +9,10 @@
 
 namespace motionrack::mcx314::twin {
 
-/// Output pins of an axis, and its pulse pins.
+/// Number of output pins of an axis; the first two are the pulse pins.
 inline constexpr int output_count = 11, pulse_pins = 2;
 
-/// State right after an op (for a read: with its value).
+/// State right after an op; `value`: result of a read.
 struct Sight {
     std::uint16_t value = 0;
     bool interrupt = false;
@@ -45,7 +45,7 @@ struct Change {
     friend bool operator==(const Change&, const Change&) = default;
 };
 
-/// Half width of the watched range number `n` of an axis around its count.
+/// Returns the half width of the watched range number `n` of an axis around its count.
 constexpr std::int64_t reach(int axis, std::size_t n) {
     return 1 + static_cast<std::int64_t>((n * 29 + static_cast<std::size_t>(axis) * 7) % 61);
 }
@@ -59,11 +59,11 @@ struct Outcome {
     std::uint64_t conditions = 0;                             ///< reported since the start
 };
 
-/// By tick, then axis.
+/// Sorts by tick, then axis.
 void sort_pulses(std::vector<Pulse>& pulses);
 
 Outcome run_on_twin(const Program& program);
-/// By instant, axis, pin.
+/// Sorts by instant, axis, pin; drops changes without duration.
 void sort_changes(std::vector<Change>& changes);
 
 // For messages.

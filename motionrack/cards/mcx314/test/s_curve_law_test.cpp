@@ -1,5 +1,6 @@
-// Laws of S-shaped ramps, independent of the rules: maximum end speed, duration, symmetry of acceleration and
-// deceleration, and zero acceleration at the end. The formulas are the maker's; the ramps are the chip's.
+// Tests of laws of S-shaped ramps that do not use the chip's rules: maximum end speed, duration, symmetry of
+// acceleration and deceleration, and zero acceleration at the end. The formulas are the maker's; the ramps are the
+// chip's.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -13,7 +14,7 @@
 namespace motionrack::mcx314 {
 namespace {
 
-/// With AO at its reset value.
+/// Returns a drive with an S-curve and AO at its reset value.
 CurveData s_shaped(std::int64_t range, std::int64_t start, std::int64_t top, std::int64_t accel, std::int64_t k,
                    std::int64_t pulses) {
     CurveData data{range, start, top, accel, accel, k, 8};
@@ -22,12 +23,13 @@ CurveData s_shaped(std::int64_t range, std::int64_t start, std::int64_t top, std
     return data;
 }
 
-/// Ticks from one rate to the next.
+/// Returns the ticks from one acceleration value to the next.
 std::int64_t step_of(const CurveData& data) {
     return 16 * data.K;
 }
 
-/// Ticks of a ramp: J = 4 (V - SV) / ta^2 if the acceleration stays below A, otherwise with a straight middle at A.
+/// Returns the ticks of a ramp: J = 4 (V - SV) / ta^2 if the acceleration stays below A, otherwise with a straight
+/// middle at A.
 double ticks_by_the_formula(const CurveData& data) {
     const auto gained = static_cast<double>(data.V - data.SV), accel = static_cast<double>(data.A);
     const double jerk = 1.0 / 64'000 / static_cast<double>(step_of(data));  // speed units a tick, a tick
@@ -36,7 +38,7 @@ double ticks_by_the_formula(const CurveData& data) {
     return gained * 64'000 / accel + curved;
 }
 
-/// The maker's sample, "100 to 40,000 pulses/s in 0.4 s", and the sample of another maker.
+/// Returns the maker's sample, "100 to 40,000 pulses/s in 0.4 s", and the sample of another maker.
 std::vector<CurveData> examples() {
     const std::int64_t in_400_ms = std::lround(62.5e6 * 10 * 0.4 * 0.4 / (4 * 39'900.0));
     return {s_shaped(800'000, 100, 4'000, 200, 1'010, 50'000), s_shaped(800'000, 10, 4'000, 8'000, in_400_ms, 50'000),
@@ -71,7 +73,7 @@ TEST(SCurveLaw, AMotorWithAStartFrequency20PercentAboveTheInitialSpeedLosesNoSte
     }
 }
 
-/// Ramps of at least ten rates, because a curve of two rates has no shape.
+/// Returns a random ramp of at least ten acceleration values, because a curve of two has no shape.
 CurveData any_ramp() {
     std::mt19937_64 random(*rc::gen::arbitrary<std::uint64_t>());
     const auto from = [&](std::int64_t min, std::int64_t max) {

@@ -1,4 +1,4 @@
-// The card's axis in millimetres: valid position, moves, jog, homing, stops, on the simulated machine.
+// Tests of an axis of the card in millimetres on the simulated machine: valid position, moves, jog, homing, stops.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -229,7 +229,7 @@ RC_GTEST_PROP(SingleAxisProperty, AfterHomingTheCounterIsTheMachine, ()) {
         RC_ASSERT(bool(rig.x.move_to(*rc::gen::inRange(0, 6400) / pulses_per_mm, *rc::gen::inRange(1, 51))));
         RC_ASSERT(bool(rig.x.wait(whole_seconds(100))));
     }
-    // The switch's edge is the first pulse at or below its position: within a pulse.
+    // The edge of the switch is at the first pulse at or below its position, so it is exact to one pulse.
     RC_ASSERT(std::abs(rig.position() - rig.x.position()) < 1.01 / pulses_per_mm);
 }
 

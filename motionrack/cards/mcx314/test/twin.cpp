@@ -1,4 +1,4 @@
-// The twin's tick: inputs, pulse and the consequences of a pulse.
+// The twin's tick: inputs, a pulse and its consequences.
 #include <algorithm>
 #include <motionrack/cards/mcx314/test/twin.hpp>
 
@@ -51,13 +51,13 @@ void Twin::work(int a) {
 
 // ---- step 1
 
-// True if generator `a` steps axis `other` in the present segment (or is its own).
+// Returns true if generator `a` steps axis `other` in the present segment, or is its own generator.
 bool Twin::moves_with(int a, int other) const {
     if (axes_[a].gen.kind != Generator::Kind::path) return a == other;
     return (path_.segment().mask() >> other & 1) != 0;
 }
 
-// Stop causes of one axis as bits of RR1, and the stop that they request.
+// Returns the active stop causes of an axis as bits of RR1, and which kind of stop they request.
 std::uint16_t Twin::active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const {
     unsigned causes = 0;
     for (int i = 0; i < 4; ++i) {
@@ -89,7 +89,7 @@ bool Twin::beyond_software_limit(const Axis& axis) const {
     return bit(axis.wr2, 1) && counter < axis.comp_minus;
 }
 
-// Returns true if the drive ended.
+// Applies the stop inputs; returns true if the drive ended.
 bool Twin::inputs(int a) {
     Generator& gen = axes_[a].gen;
     bool decelerating = gen.ask_decelerating;
@@ -104,7 +104,7 @@ bool Twin::inputs(int a) {
     return stop(a, decelerating, immediate);
 }
 
-// Accepts a stop; returns true if it ended the drive.
+// Applies a stop request; returns true if it ended the drive.
 bool Twin::stop(int a, bool decelerating, bool immediate) {
     Generator& gen = axes_[a].gen;
     if (!decelerating && !immediate) return false;
@@ -162,7 +162,7 @@ bool Twin::pulse(int a) {
     return false;
 }
 
-// The wires of the axes that have just moved are active for half a period.
+// Makes the pulse wires of the axes that have just moved active for half a period.
 void Twin::show_pulse(int a) {
     const Generator& gen = axes_[a].gen;
     for (int i = 0; i < axis_count; ++i)

@@ -31,7 +31,7 @@ struct Pulse {
     friend bool operator==(const Pulse&, const Pulse&) = default;
 };
 
-/// The parameter registers, as written (truncated to their width, not limited to their range).
+/// The parameter registers as written: truncated to their width, but not limited to their range.
 struct Parameters {
     std::uint32_t range = 0, jerk = 0, decel_jerk = 0, accel = 0, decel = 0, start_speed = 0, speed = 0;
     std::uint32_t pulses = 0, decel_point = 0, centre = 0, offset = 8;
@@ -42,11 +42,11 @@ struct Generator {
     enum class Kind : std::uint8_t { idle, fixed, continuous, path };
     enum class Phase : std::uint8_t { increasing, constant, decreasing };
     Kind kind = Kind::idle;
-    int wait = 0;  ///< start ticks still to pass
+    int wait = 0;  ///< ticks until the generator's first working tick
     bool manual = false, own_decel = false, s_curve = false;
     std::int64_t range = 0, range_now = 0;
-    std::int64_t acc = 0, speed = 0, speed_part = 0;        ///< acc, CV, va
-    std::int64_t rate = 0, rate_part = 0, lower_rates = 0;  ///< CA, ja, 0 + 1 + .. + (CA - 1)
+    std::int64_t acc = 0, speed = 0, speed_part = 0;        ///< acc, CV and va of RULES.md
+    std::int64_t rate = 0, rate_part = 0, lower_rates = 0;  ///< CA and ja of RULES.md; 0 + 1 + .. + (CA - 1)
     std::int64_t aim = 0, n = 0, accel_pulses = 0;
     int ramp = 0;
     Phase phase = Phase::increasing;
@@ -62,15 +62,15 @@ struct Axis {
     std::int32_t lp = 0, ep = 0, comp_plus = 0, comp_minus = 0;
     int direction = +1;
     std::uint16_t causes = 0;    ///< stop causes of the running drive, RR1 D8-D15
-    std::uint16_t finished = 0;  ///< RR1 D8-D15
-    std::uint16_t flags = 0;     ///< RR3
+    std::uint16_t finished = 0;  ///< stop causes of finished drives, RR1 D8-D15
+    std::uint16_t flags = 0;     ///< interrupt flags, RR3
     unsigned compared = 0;       ///< previous results of the four comparisons, in the bits of RR3
     bool waits_position = false;
     std::array<bool, 2> lines{true, true}, heard{true, true};  ///< encoder lines A and B, and their counted levels
     std::array<int, 2> low{3, 3};                              ///< ticks, up to 3, since nEXPP, nEXPM were seen High
     std::int64_t pulse_end = 0;                                ///< tick at which the last pulse on its wire ends
     int pulse_direction = +1;
-    int external = -1;  ///< 0, 1: nEXPP, nEXPM drives until it is High
+    int external = -1;  ///< number of the input (0 nEXPP, 1 nEXPM) that drives the axis until it is High; -1: none
     bool hold = false;
     int held_command = 0;
     Segment held_segment;
@@ -78,7 +78,7 @@ struct Axis {
     Generator gen;
     Extension as;
 
-    /// Level of an input as the chip sees it.
+    /// Returns the level of an input as the chip sees it.
     bool level(Pin which) const {
         const auto i = static_cast<std::size_t>(which);
         return as.filters(which) ? as.filter[i].out : pin[i];
@@ -89,18 +89,18 @@ class Twin {
   public:
     explicit Twin(const ChipOptions& options = {});
 
-    /// The register bus, byte offsets 0, 2, .. 14; an access comes after the last tick and before the next.
+    /// Accesses a register by its byte offset 0, 2, .. 14; an access comes after the last tick and before the next.
     void write(std::uint32_t offset, std::uint16_t value);
     void write_byte(std::uint32_t port, std::uint8_t value);
     std::uint8_t read_byte(std::uint32_t port);
     std::uint16_t read(std::uint32_t offset);
     std::uint16_t peek(std::uint32_t offset) const;
 
-    /// Levels apply from the next tick on (and at once in the status registers).
+    /// Set the level of an input. It applies from the next tick on, in the status registers at once.
     void set_input(int axis, Pin pin, bool level) { axes_[axis].pin[static_cast<int>(pin)] = level; }
     void set_emergency(bool level) { emgn_ = level; }
     void set_step(bool level) { expls_ = level; }
-    /// Encoder line 0 (A) or 1 (B); counted once all wires of the instant are set.
+    /// Sets encoder line 0 (A) or 1 (B); hear_encoders() counts once all wires of the instant are set.
     void set_encoder(int axis, int line, bool level) { axes_[axis].lines[line] = level; }
     void hear_encoders();
 
@@ -114,25 +114,25 @@ class Twin {
     bool driving(int a) const {
         return axes_[a].gen.kind != Generator::Kind::idle || (chain_ >> a & 1) != 0 || axes_[a].as.hmst != 0;
     }
-    /// n-DRV.
+    /// Returns n-DRV of RR0.
     bool busy(int a) const;
-    /// The wire nDRIVE.
+    /// Returns the level of the pin nDRIVE.
     bool drive_output(int a) const;
     bool any_driving() const;
-    /// Net pulses of an axis since the start, + minus -.
+    /// Returns the net pulses of an axis since the start, + minus -.
     std::int64_t count(int a) const { return count_[a]; }
-    /// Pulses of both directions since the start.
+    /// Returns the pulses of both directions since the start.
     std::int64_t made(int a) const { return made_[a]; }
-    /// True: an interrupt is requested (INTN Low).
+    /// Returns true if an interrupt is requested (INTN Low).
     bool interrupt() const;
-    /// Levels of output pins: nPP, nPM, nOUT4..7, nOUT0..3, nDRIVE.
+    /// Returns the levels of the output pins: nPP, nPM, nOUT4..7, nOUT0..3, nDRIVE.
     unsigned outputs(int a) const { return outputs(a, now_ < axes_[a].pulse_end); }
-    /// The same without a pulse.
+    /// Returns the same levels without a pulse.
     unsigned outputs_at_rest(int a) const { return outputs(a, false); }
-    /// Conditions since the start: ignored commands, and patterns whose data ran out.
+    /// Returns the number of conditions since the start: ignored commands, and patterns whose data ran out.
     std::uint64_t conditions() const { return conditions_; }
 
-    /// Pulses are recorded unless switched off.
+    /// Switches the recording of pulses on or off; initially it is on.
     void record(bool on) { recording_ = on; }
     const std::vector<Pulse>& pulses() const { return pulses_; }
 
@@ -257,7 +257,7 @@ class Twin {
     std::vector<Pulse> pulses_;
 };
 
-/// A register as the generator uses it: limited to its documented range.
+/// Returns a register's value as the generator uses it: limited to its documented range.
 constexpr std::int64_t used(std::uint32_t written, std::int64_t low, std::int64_t high) {
     return written < low ? low : written > high ? high : written;
 }

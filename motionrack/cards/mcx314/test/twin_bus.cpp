@@ -1,4 +1,4 @@
-// The twin's register bus: effects of writes.
+// The twin's register bus: the effects of writes.
 #include <algorithm>
 #include <motionrack/cards/mcx314/test/twin.hpp>
 
@@ -50,7 +50,7 @@ void Twin::write_byte(std::uint32_t port, std::uint8_t value) {
     }
 }
 
-// Writes the bits in `mask`.
+// Writes the bits in `mask` of a register.
 void Twin::write_register(std::uint32_t offset, std::uint16_t value, std::uint16_t mask) {
     const auto mixed = [=](std::uint16_t old) { return static_cast<std::uint16_t>((old & ~mask) | (value & mask)); };
     const auto put = [&](std::uint16_t& old) { old = mixed(old); };

@@ -1,4 +1,4 @@
-// The MCX314As part of the twin: its commands, samples of the inputs, counters in rings, its decelerations, the
+// The MCX314As part of the twin: its commands, the filters of the inputs, counters in rings, its decelerations, the
 // deviation counter clear pulse.
 #include <algorithm>
 #include <motionrack/cards/mcx314/test/twin.hpp>
@@ -56,7 +56,7 @@ void Twin::extended_write(int code, int a) {
     axis.as.in3_before = axis.level(Pin::in3);
 }
 
-// The first part of a tick.
+// Executes the first part of a tick: samples the filtered inputs.
 void Twin::sample() {
     emergency_filter_.sample(emgn_, axes_[0].as.delay());
     step_filter_.sample(expls_, axes_[0].as.delay());
@@ -75,14 +75,14 @@ void Twin::sample() {
     }
 }
 
-// LP or EP after a step of +1 or -1.
+// Returns LP or EP after a step of +1 or -1.
 std::int32_t Twin::next_count(const Axis& axis, std::int32_t counter, int direction) const {
     const auto from = static_cast<std::uint32_t>(counter), end = static_cast<std::uint32_t>(axis.comp_plus);
     if (axis.as.ring() && from == (direction > 0 ? end : 0)) return static_cast<std::int32_t>(direction > 0 ? 0 : end);
     return static_cast<std::int32_t>(from + static_cast<std::uint32_t>(direction));
 }
 
-// In a ring LP and EP are 0 .. COMP+.
+// Sets LP; in a ring it is 0 .. COMP+.
 void Twin::set_lp(Axis& axis, std::uint32_t value) {
     const std::uint64_t size = std::uint64_t{static_cast<std::uint32_t>(axis.comp_plus)} + 1;
     axis.lp = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.as.ring() ? value % size : value));
@@ -95,12 +95,12 @@ void Twin::set_ep(Axis& axis, std::uint32_t value) {
 
 // ---- drives
 
-// True if the automatic deceleration uses D.
+// Returns true if the automatic deceleration uses D.
 bool Twin::weighs(const Axis& axis) const {
     return extended_ && axis.gen.own_decel && !axis.gen.s_curve;
 }
 
-// Estimated pulses of a deceleration.
+// Returns the estimated pulses of a deceleration.
 std::int64_t Twin::final_pulses(const Axis& axis) const {
     const std::int64_t pulses = axis.gen.accel_pulses;
     if (!weighs(axis)) return pulses;

@@ -27,7 +27,7 @@ struct Extension {
     unsigned em6 = 0, em7 = 0, sm6 = 0, sm7 = 0;  ///< the words of 60h and 64h
     std::uint32_t hv = 0, buffer = 0;
     std::array<Filter, pin_count> filter;
-    bool in2_before = true, in3_before = true;  ///< at the last sample
+    bool in2_before = true, in3_before = true;  ///< levels at the last sample
     bool wheel_before = true;                   ///< nEXPP at the last tick, or at the write of WR3
     std::int64_t clear_until = 0;               ///< tick at which the deviation counter clear pulse ends
     std::int64_t cap = 0;                       ///< speed cap of a drive without triangle; 0: none
@@ -51,7 +51,7 @@ struct Extension {
                 return (em6 & 0x0100) != 0;
         }
     }
-    /// In ticks.
+    /// Returns the delay of the filters, ticks.
     std::int64_t delay() const { return em6 >> 13 == 0 ? 16 : 1024 << (em6 >> 13); }
     bool ring() const { return (em6 & 0x10) != 0; }
     bool slow() const { return hmst == 8 || hmst == 12 || hmst == 15 || hmst == 20; }

@@ -12,7 +12,7 @@ bool Twin::at_limit(const Axis& axis, int direction) const {
     return axis.level(Pin::limit_minus) == ((axis.wr2 >> 4 & 1) != 0);
 }
 
-// True if the event that this step waits for has occurred.
+// Returns true if the event that this step waits for has occurred.
 bool Twin::home_input(const Axis& axis, int step) const {
     const bool in0 = axis.level(Pin::in0) == ((axis.wr1 >> 0 & 1) != 0);
     const bool in1 = axis.level(Pin::in1) == ((axis.wr1 >> 2 & 1) != 0);
@@ -22,7 +22,7 @@ bool Twin::home_input(const Axis& axis, int step) const {
     return step == 1 ? in0 : in1;
 }
 
-// True if the search stops its drive in this tick.
+// Returns true if the search stops its drive in this tick.
 bool Twin::home_stops(Axis& axis) {
     Extension& as = axis.as;
     if (as.hmst == 0 || as.hmst == step_4) return false;
@@ -75,7 +75,7 @@ void Twin::go_home(int a, int hmst) {
     start_drive(a, (hmst == step_4 ? 0x20 : 0x22) + (direction > 0 ? 0 : 1));
 }
 
-// At the end of a tick.
+// Advances the search at the end of a tick.
 void Twin::look_at_home(int a) {
     Axis& axis = axes_[a];
     Extension& as = axis.as;
@@ -103,7 +103,7 @@ void Twin::look_at_home(int a) {
     begin_home_step(a, step + 1);
 }
 
-// No step is left.
+// Ends the search after its last step.
 void Twin::finish_home(int a) {
     Axis& axis = axes_[a];
     if (!axis.as.enabled(3)) ask_clear(axis);

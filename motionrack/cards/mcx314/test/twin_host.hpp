@@ -1,4 +1,4 @@
-// A small host for the twin: the register traffic of a command in one call.
+// A small host for the twin: a function call for the register accesses of a command.
 #pragma once
 
 #include <motionrack/cards/mcx314/test/commands.hpp>
@@ -11,7 +11,7 @@ class Host : public Commands<Host> {
     void write(int number, unsigned value) {
         twin.write(static_cast<std::uint32_t>(2 * number), static_cast<std::uint16_t>(value));
     }
-    /// R, V, SV, A, D, K and AO of some axes.
+    /// Writes R, V, SV, A, D, K and AO of some axes.
     void speeds(unsigned axes, std::int64_t r, std::int64_t v, std::int64_t sv, std::int64_t a, std::int64_t d,
                 std::int64_t k, std::int64_t ao) {
         data(axes, 0x00, r);

@@ -7,7 +7,7 @@ namespace motionrack::mcx314::twin {
 
 namespace {
 
-// In octant k: the coordinate (0: x, 1: y) that steps at every pulse, its direction, and the sign of the other
+// Stepping in octant k: the coordinate (0: x, 1: y) that steps at every pulse, its direction, and the sign of the other
 // coordinate.
 struct Octant {
     int short_axis, short_step, long_side;
@@ -15,7 +15,8 @@ struct Octant {
 constexpr std::array<Octant, 8> octants{
     {{1, +1, +1}, {0, -1, +1}, {0, -1, +1}, {1, -1, -1}, {1, -1, -1}, {0, +1, -1}, {0, +1, -1}, {1, +1, +1}}};
 
-// Counter-clockwise, x decreases in the upper half and y decreases in the left half.
+// Returns the direction of a coordinate in an octant, counter-clockwise: x decreases in the upper half, y in the left
+// half.
 constexpr int direction_in(int octant, int coordinate) {
     if (coordinate == 0) return octant < 4 ? -1 : +1;
     return octant >= 2 && octant < 6 ? -1 : +1;

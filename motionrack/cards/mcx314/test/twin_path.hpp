@@ -37,16 +37,17 @@ class Path {
     /// Executes one basic pulse of a line or an arc; sets `step[i]` to -1, 0 or +1 for AX(i+1).
     void step(std::array<int, 3>& step);
     bool finished() const { return finished_; }
-    /// Remaining basic pulses of a line.
+    /// Returns the remaining basic pulses of a line.
     std::int64_t left() const { return max_pulses_ - n_; }
     std::int64_t done() const { return n_; }
     bool is_line() const { return segment_.kind == Segment::Kind::line; }
     bool is_pattern() const { return segment_.kind == Segment::Kind::pattern; }
     bool is_arc() const { return !is_line() && !is_pattern(); }
     const Segment& segment() const { return segment_; }
-    /// Value of RR0.ZONE, 0..7.
+    /// Returns the value of RR0.ZONE, 0..7.
     int zone() const;
-    /// Direction of AX(i+1): the sign of its finish point, in an arc that of the present octant; 0: it is stationary.
+    /// Returns the direction of AX(i+1): the sign of its finish point, in an arc that of the present octant; 0: it is
+    /// stationary.
     int direction(int i) const;
 
   private:

@@ -19,16 +19,16 @@ class Pattern {
         }
         int of(int i) const { return plus[i] ? (minus[i] ? 0 : +1) : minus[i] ? -1 : 0; }
     };
-    /// BP1P, BP1M, BP2P, BP2M, BP3P, BP3M.
+    /// Values of BP1P, BP1M, BP2P, BP2M, BP3P, BP3M.
     using Word = std::array<std::uint16_t, 6>;
 
-    bool writable = false;  ///< 36h
+    bool writable = false;  ///< 36h has enabled the pattern registers
     bool interrupt = false;
     Word registers{};
 
-    /// BPSC.
+    /// Returns BPSC, the number of stacked words.
     int counter() const { return static_cast<int>(stack_.size()); }
-    /// 38h; returns false if the stack is full.
+    /// Executes 38h; returns false if the stack is full.
     bool stack() {
         if (counter() >= 3) return false;
         stack_.push_back(registers);
@@ -60,7 +60,8 @@ class Pattern {
         running_.pop_front();
         return step;
     }
-    /// The direction of AX(i+1)'s next step in the running word, before the end code; 0: there is none.
+    /// Returns the direction of AX(i+1)'s next step in the running word, before the end code; 0: it has no further
+    /// step.
     int next_direction(int i, int axes) const {
         for (const Step& step : running_) {
             if (step.is_end(axes)) return 0;

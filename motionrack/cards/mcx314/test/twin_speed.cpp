@@ -10,7 +10,7 @@ constexpr std::uint16_t flag_constant_end = 1u << 5;
 constexpr std::uint16_t flag_constant_start = 1u << 6;
 }  // namespace
 
-// Returns true if the drive ended.
+// Executes the third step of the rules; returns true if the drive ended.
 bool Twin::speed_step(int a) {
     Axis& axis = axes_[a];
     Generator& gen = axis.gen;
@@ -25,7 +25,7 @@ bool Twin::speed_step(int a) {
     return false;
 }
 
-// V, or its replacement: HV in slow drives of a home search, at most the cap if a triangle is avoided.
+// Returns V, or its replacement: HV in slow drives of a home search; a lower speed if a triangle is avoided.
 std::int64_t Twin::drive_speed(const Axis& axis) const {
     std::int64_t v = axis.as.slow() ? used(axis.as.hv, 1, 8'000) : used_speed(axis.reg);
     if (!axis.as.slow() && axis.as.cap != 0 && axis.as.cap < v) v = axis.as.cap;
@@ -78,14 +78,14 @@ void Twin::t_curve(int a) {
 
 namespace {
 
-// J
+// Returns J of RULES.md for the present ramp, ticks.
 template <class Axis>
 std::int64_t s_jerk(const Axis& axis, bool extended) {
     const bool own_jerk = extended && axis.gen.ramp < 0 && axis.gen.own_decel;
     return 16 * used_jerk(own_jerk ? axis.reg.decel_jerk : axis.reg.jerk);
 }
 
-// The third step of the rules; returns true if the target is reached.
+// Executes a tick of an S-curve; returns true if the target is reached.
 bool s_tick(Generator& gen, std::int64_t limit, std::int64_t jerk_ticks) {
     using Phase = Generator::Phase;
     // Remaining change of the speed, in parts of 1/64,000 of a step.
@@ -133,7 +133,7 @@ void Twin::s_curve(int a) {
     if (gen.ramp != 0) s_advance(a);
 }
 
-// The final deceleration begins in this tick: an accelerating ramp is dropped, a decelerating one gets a new target.
+// Begins the final deceleration in this tick: drops an accelerating ramp, or gives a decelerating one a new target.
 void Twin::s_turn_final(int a) {
     Generator& gen = axes_[a].gen;
     const std::int64_t to = target(a);

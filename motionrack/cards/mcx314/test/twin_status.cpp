@@ -1,4 +1,4 @@
-// The twin's register reads, and its output pins.
+// The twin's register reads and its output pins.
 #include <motionrack/cards/mcx314/test/twin.hpp>
 #include <utility>
 
@@ -94,7 +94,7 @@ std::uint16_t Twin::status2(int a) const {
     return static_cast<std::uint16_t>(v);
 }
 
-// RR4 and RR5: eight input levels of one axis.
+// Returns the eight input levels of one axis, as in RR4 and RR5.
 std::uint16_t Twin::levels(int a) const {
     unsigned v = 0;
     for (int i = 0; i < 8; ++i) v |= static_cast<unsigned>(axes_[a].level(static_cast<Pin>(i))) << i;
@@ -103,7 +103,7 @@ std::uint16_t Twin::levels(int a) const {
 
 // ---- output pins
 
-// nPP, nPM, nOUT4..7, nOUT0..3, nDRIVE of an axis.
+// Returns the levels of nPP, nPM, nOUT4..7, nOUT0..3 and nDRIVE of an axis.
 unsigned Twin::outputs(int a, bool pulse) const {
     const Axis& axis = axes_[a];
     const bool negative = bit(axis.wr2, 7);

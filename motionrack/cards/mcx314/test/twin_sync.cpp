@@ -3,12 +3,12 @@
 
 namespace motionrack::mcx314::twin {
 
-// A condition, as a bit of SM6, has occurred.
+// Notes that a condition, a bit of SM6, has occurred.
 void Twin::note(int a, unsigned condition) {
     if (axes_[a].as.sm6 & condition) axes_[a].as.acts = true;
 }
 
-// At the end of a tick or a write.
+// Executes the actions of all axes at the end of a tick or a write.
 void Twin::act_together() {
     static constexpr int others[axis_count][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
     unsigned acting = 0;

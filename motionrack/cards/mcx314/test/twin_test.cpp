@@ -1,4 +1,4 @@
-// The twin against the maker's documents: formulas, accuracy classes and the sample program's closed contour.
+// Tests of the twin against the maker's documents: formulas, accuracy classes and the sample program's closed contour.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr unsigned x = 1, y = 2, z = 4;
 constexpr double second = 8e6;
 
-// Positions of some axes after each tick with a pulse.
+// Returns the positions of the four axes after each tick with a pulse.
 std::vector<std::array<std::int64_t, 4>> places(const std::vector<Pulse>& pulses) {
     std::vector<std::array<std::int64_t, 4>> out(1);
     std::int64_t tick = -1;
@@ -115,7 +115,7 @@ TEST(Mcx314Twin, ClosesTheDocumentedContour) {
     host.until_idle(1'000'000);
     EXPECT_EQ(host.twin.count(0), 0);
     EXPECT_EQ(host.twin.count(1), 0);
-    // Without a gap: at R / V = 2 every second tick has a pulse, from the first to the last.
+    // The chain has no gap: at R / V = 2 every second tick has a pulse, from the first to the last.
     const std::vector<Pulse>& pulses = host.twin.pulses();
     for (std::size_t i = 1; i < pulses.size(); ++i) ASSERT_LE(pulses[i].tick - pulses[i - 1].tick, 2);
 }
@@ -177,8 +177,8 @@ TEST(Mcx314Twin, KeepsACircleWithinHalfAPulseAndReturnsToItsStart) {
 }
 
 TEST(Mcx314Twin, StretchesThePulsePeriodWhenAxesStepTogether) {
-    // 45 degrees: both axes at every basic pulse, so the constant vector speed uses R2 = 1.41421 R1 from the second
-    // pulse on.
+    // On a line at 45 degrees both axes step at every basic pulse, so the constant vector speed uses R2 = 1.41421 R1
+    // from the second pulse on.
     Host host;
     host.data(x | y, 0x00, 800'000);
     host.speeds(x, 800'000, 8000, 8000, 1, 1, 1, 0);

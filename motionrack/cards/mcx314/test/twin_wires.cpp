@@ -1,4 +1,4 @@
-// The twin's request wires (nEXPP, nEXPM, EXPLSN), and its pulses and outputs.
+// The twin's request inputs (nEXPP, nEXPM, EXPLSN) and its encoder inputs.
 #include <algorithm>
 #include <motionrack/cards/mcx314/test/twin.hpp>
 
@@ -10,7 +10,7 @@ constexpr bool twin_drives_by_wire(const Axis& axis) {
 }
 }  // namespace
 
-// The end of a tick: inputs that request a drive, then EXPLSN.
+// Evaluates, at the end of a tick, the inputs that request a drive, then EXPLSN.
 void Twin::look_at_wires() {
     for (int a = 0; a < axis_count; ++a)
         if (twin_drives_by_wire(axes_[a]))
@@ -37,7 +37,7 @@ void Twin::look_at_external(int a) {
     }
 }
 
-// nEXPP and nEXPM as lines A and B of a hand wheel.
+// Evaluates nEXPP and nEXPM as lines A and B of a hand wheel.
 void Twin::look_at_wheel(int a) {
     Axis& axis = axes_[a];
     const bool high = axis.level(Pin::exp_plus), before = axis.as.wheel_before;
@@ -77,7 +77,7 @@ void Twin::hear_encoders() {
     }
 }
 
-// Requested by 3Ah or by EXPLSN; returns false if no segment waits for it.
+// Requests a step by 3Ah or by EXPLSN; returns false if no segment waits for it.
 bool Twin::ask_step(Segment::Steps by) {
     if (chain_ == 0 || step_under_way_ || (path_.segment().steps & by) == 0) return false;
     step_under_way_ = true;

@@ -1,4 +1,4 @@
-// Physical units: results are as near to the request as the registers allow, and the stated rounding is true.
+// Tests of physical units: results are as near to the request as the registers allow, and the stated rounding is true.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -15,7 +15,7 @@ double any(double min, double max) {
     return min + (max - min) * part;
 }
 
-/// A register value is at most half a unit off, unless it is at the end of its range.
+/// Checks that a register value is at most half a unit off, unless it is at the end of its range.
 void near(const Rounded& value, double unit, std::int64_t min, std::int64_t max) {
     RC_ASSERT(value.value >= min);
     RC_ASSERT(value.value <= max);
@@ -23,7 +23,7 @@ void near(const Rounded& value, double unit, std::int64_t min, std::int64_t max)
     if (value.value > min && value.value < max) RC_ASSERT(std::fabs(value.real - value.asked) <= unit * 0.5000001);
 }
 
-/// The smallest relative excess over a speed (pulses/s) of any V and R up to `widest`.
+/// Returns the smallest relative excess over a speed (pulses/s) of any V, with any R up to `widest`.
 double least_excess(double speed, double widest) {
     double out = std::numeric_limits<double>::infinity();
     for (double v = 1; v <= 8'000; ++v) {
@@ -56,11 +56,12 @@ TEST(Units, ChoosesTheWidestSufficientRangeAndReachesTheRequestedSpeed) {
         const double min_multiple = std::max({1.0, drive.speed * pulses / 8'000, drive.start_speed * pulses / 8'000,
                                               drive.acceleration * pulses / 1e6, drive.deceleration * pulses / 1e6,
                                               drive.jerk * pulses / 62.5e6});
-        // The speed is reached, with an excess of at most one step of R; where no V and R reach it so, it is as near.
+        // The set speed exceeds the request by at most one step of R; if no V and R allow that, it is as near as
+        // possible.
         const double excess = least_excess(drive.speed * pulses, std::floor(8e6 / min_multiple));
         RC_ASSERT(set->speed.error() <= std::max(excess, 1.0 / 15'999) + 1e-9);
         RC_ASSERT(set->speed.error() >= -std::max(excess - 1.0 / 15'999, 0.0) - 1e-9);
-        // Every requested value is within reach.
+        // Every requested value is within the range of its register.
         for (const Rounded* value : {&set->start_speed, &set->acceleration, &set->deceleration})
             RC_ASSERT(value->value < 8'000 || value->error() > -1e-4);
         // A multiple finer by 1/4,000 would not suffice: V, or another value, would exceed its range, or the range is
@@ -83,7 +84,7 @@ TEST(Units, RegistersConvertBackToTheGivenValues) {
         RC_ASSERT(same(back.acceleration, set->acceleration.real));
         if (set->asymmetric) RC_ASSERT(same(back.deceleration, set->deceleration.real));
         RC_ASSERT(same(back.jerk, set->jerk.real));
-        // The register values are found again with the same range.
+        // The conversion of the real values finds the same register values at the same R.
         const auto again = real_setting_at(scale, back, set->R);
         RC_ASSERT(again.has_value());
         RC_ASSERT(again->speed.value == set->speed.value);
@@ -93,7 +94,7 @@ TEST(Units, RegistersConvertBackToTheGivenValues) {
     }));
 }
 
-/// The scaling table: R, M, and the meaning of 1 and of the maximum of each register.
+/// Compares the conversions with the scaling table: R, M, and the meaning of 1 and of the maximum of each register.
 TEST(Units, MatchesTheScalingTable) {
     struct Row {
         std::int64_t r;
@@ -160,7 +161,7 @@ TEST(Units, AnAxisMovesInMillimetresAsPlanned) {
         ASSERT_TRUE(rig.driver.stop(axis_y, StopKind::slow));
         ASSERT_TRUE(rig.driver.wait_until_done(axis_y, whole_seconds(10)));
         EXPECT_LT(axis.position(), 80);
-        // A new end during the move, relative to its start.
+        // Moves the end during the move, relative to its start.
         const double from = axis.position();
         ASSERT_TRUE(axis.move(50));
         while (!rig.driver.axis_status(1).constant()) rig.port.pass(milliseconds(1));

@@ -1,5 +1,5 @@
-// The axis generator in Verilog (tests/verilog/mcx314_axis.v, run by iverilog) against the twin and the event-driven
-// chip: a third implementation of the rules.
+// Compares the axis generator in Verilog (tests/verilog/mcx314_axis.v, run by iverilog), a third implementation of the
+// rules, with the twin and with the event-driven chip.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -17,7 +17,7 @@
 namespace motionrack::mcx314::twin {
 namespace {
 
-// Parameters as on the testbench's command line.
+// Parameters of a drive, as on the command line of the testbench.
 struct VerilogDrive {
     std::int64_t r, v, sv, a, d, k, ao, p, dp;
     unsigned mode = 0;  // WR3: 1 manual, 2 own deceleration, 4 S-curve
@@ -48,7 +48,7 @@ Course run_twin(const VerilogDrive& drive) {
     return out;
 }
 
-// The same traffic on the event-driven chip; `end`: last tick.
+// Returns the pulses of the same traffic on the event-driven chip; `end`: the last tick.
 std::vector<std::int64_t> pulses_of_chip(const VerilogDrive& drive, std::int64_t end) {
     Program program;
     const auto write = [&](std::int64_t tick, int offset, std::int64_t value) {
