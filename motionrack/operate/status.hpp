@@ -34,7 +34,8 @@ constexpr bool is_stationary(MachineState state) {
     return idle(state) || state == MachineState::hold;
 }
 
-/// An alarm according to ISA-18.2: active until it is acknowledged and its cause is gone.
+/// An alarm with the states of ISA-18.2: active until its cause is gone, which for most a reset ends. Then it stays
+/// listed until it is acknowledged.
 struct Alarm {
     std::int64_t number = 0;  ///< starts at 1
     Instant at{};

@@ -45,8 +45,6 @@ class ChipAxisGroup final : public control::AxisGroup {
     std::vector<control::PathWarning> take_path_warnings() override;
     std::vector<control::MoveStart> take_move_starts() override { return std::exchange(starts_, {}); }
 
-    /// Returns the speed of one V unit, pulses/s. The chip's ramps change the speed by one unit at a time.
-    double speed_step_hz() const { return rules::clock_hz / range_; }
     /// Returns the number of segments written to the chip since begin().
     std::int64_t segments() const { return segments_; }
 

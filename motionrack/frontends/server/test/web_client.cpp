@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <utility>
 
 namespace motionrack::server {
@@ -85,9 +86,9 @@ std::string WebClient::take(std::size_t bytes) {
 }
 
 bool WebClient::ended() {
-    while (read_more()) {
-    }
-    return true;
+    errno = 0;
+    while (socket_ >= 0 && read_more()) errno = 0;
+    return socket_ >= 0 && errno != EAGAIN && errno != EWOULDBLOCK;
 }
 
 WebAnswer WebClient::ask(const std::string& method, const std::string& target, const std::string& body,

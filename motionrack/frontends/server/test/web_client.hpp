@@ -41,7 +41,7 @@ class WebClient {
     WebAnswer ask(const std::string& method, const std::string& target, const std::string& body = "",
                   const std::string& fields = "");
     WebAnswer answer(bool head_only = false);
-    /// Reads and discards until the other end closes, or until a read times out. Always returns true.
+    /// Reads and discards until the other end closes. Returns false if a read times out, or without a connection.
     bool ended();
 
     /// Requests an upgrade to a WebSocket; status 101 if the server accepts it.
