@@ -161,7 +161,10 @@ HangAtTheEnd hang_at(double hangs_at) {
             seen.answer = reported ? *reported : reported.error().message;
         }));
     });
-    o.at(hangs_at, [](Machine& m) { EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board")); });
+    o.at(hangs_at, [&o](Machine& m) {
+        EXPECT_TRUE(rack::inject_fault(m.rack(), "watchdog.hang", "board"));
+        o.watch->invariants().hung();
+    });
     o.at(hangs_at + 0.3, [](Machine& m) { m.reset(); });
     o.at(hangs_at + 0.35, [](Machine& m) { static_cast<void>(m.manual().jog('X', 10)); });
     o.at(hangs_at + 2, [](Machine& m) { m.reset(); });

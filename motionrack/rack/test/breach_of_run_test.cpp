@@ -79,7 +79,7 @@ TEST_F(RunWithABreach, ThatEndsEarlyCallsMovesAndPathPlanned) {
     EXPECT_THAT(summary_of(request.config, outcome), Not(HasSubstr(" mm planned,")));
     outcome.ended = fail(ErrorKind::machine, "The motion was stopped.");
     const std::string summary = summary_of(request.config, outcome);
-    EXPECT_THAT(summary, HasSubstr(" s with 1001 moves, 0 dwells, "));
+    EXPECT_THAT(summary, HasSubstr(" s with 1002 moves, 0 dwells, "));
     EXPECT_THAT(summary, HasSubstr(" mm planned,"));
 }
 
