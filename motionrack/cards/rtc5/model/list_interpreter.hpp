@@ -1,4 +1,5 @@
-// Executes list commands: each becomes an activity of the path, or acts on another part of the card.
+// Executes list commands: each starts an activity of the path generator (line, arc, delay, wait) or acts on another
+// part of the card.
 #pragma once
 
 #include <cstddef>
