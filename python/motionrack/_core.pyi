@@ -1343,7 +1343,7 @@ class Rtc5:
     def set_start_list_pos(self, ListNo: int, Pos: int) -> None:
         """List commands go to that position of list 1 (odd numbers) or 2 (even ones); behind its end it is 0. ListNo 0 to 4294967295. Pos 0 to 1048575. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
     def get_input_pointer(self) -> int:
-        """The position that the next list command gets, over all lists. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+        """The position of the next list command in the whole list memory. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
     def get_list_space(self) -> int:
         """Free positions in the open list. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
     def execute_list_1(self) -> None:
@@ -1353,7 +1353,7 @@ class Rtc5:
     def execute_list_pos(self, ListNo: int, Pos: int) -> None:
         """Starts a list at a position of it; refused while a list runs or the card moves. ListNo 0 to 4294967295. Pos 0 to 1048575. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
     def execute_at_pointer(self, Pos: int) -> None:
-        """Starts at a position over all lists; refused while a list runs or the card moves. Pos 0 to 1048575. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
+        """Starts at a position in the whole list memory; refused while a list runs or the card moves. Pos 0 to 1048575. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, pages 70 to 73."""
     def set_delay_mode(self, VarPoly: int, DirectMove3D: int, EdgeLevel: int, MinJumpDelay: int, JumpLengthLimit: int) -> None:
         """VarPoly other than 0: polygon delays by the angle, the laser off in those above EdgeLevel; jumps shorter than JumpLengthLimit have delays down to MinJumpDelay; DirectMove3D changes nothing. VarPoly 0 to 4294967295. DirectMove3D 0 to 4294967295. EdgeLevel 0 to 4294967295 times 10 us. MinJumpDelay 0 to 4294967295 times 10 us. JumpLengthLimit 0 to 16777215 bits. Refused out of range; nothing is changed. Source: the maker's header of the RTC5 of 2013."""
     def set_hi(self, HeadNo: int, GalvoGainX: float, GalvoGainY: float, GalvoOffsetX: int, GalvoOffsetY: int) -> None:
@@ -1379,7 +1379,7 @@ class Rtc5:
     def set_ext_start_delay(self, Delay: int, EncoderNo: int) -> None:
         """The track delay of external starts. Delay -2147483648 to 2147483647 counts. EncoderNo 0 to 1. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 511."""
     def set_extstartpos(self, Pos: int) -> None:
-        """Where the list of an external start begins, over all lists. Pos 0 to 1048575. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 511."""
+        """The position in the whole list memory at which an external start begins. Pos 0 to 1048575. Refused out of range; nothing is changed. Source: the RTC5 manual 1.9 e, page 511."""
     def simulate_ext_start_ctrl(self) -> None:
         """Simulates a start signal. Source: the RTC5 manual 1.9 e, page 511."""
     def simulate_ext_stop(self) -> None:
@@ -1397,7 +1397,7 @@ class Rtc5:
     def read_multi_mcbsp(self, No: int) -> int:
         """The last value of a type, after set_multi_mcbsp_in. No 0 to 7. Takes the time of a query. Refused out of range; nothing is changed. Source: the RTC6 manual 1.0.21, page 703."""
     def set_mcbsp_in(self, Mode: int, Scale: float) -> None:
-        """X (1), Y (2) or both (3) move with the McBSP word; 0 is off. Words go to location 0, and in Mode 1 to 1, in Mode 2 to 2; in Mode 3 X goes to 1, Y to 2, the word to 3. Mode 0 to 3. Scale -1000000000 to 1000000000 bits/bit. Refused out of range; nothing is changed. Source: the RTC5 manual 1.10 d (German), page 198."""
+        """Corrects X (Mode 1), Y (2) or both (3) by the McBSP word; 0 is off. The word is stored in memory location 0, in Mode 1 also in location 1, in Mode 2 also in 2; Mode 3 also stores X in 1, Y in 2 and the whole word in 3. Mode 0 to 3. Scale -1000000000 to 1000000000 bits/bit. Refused out of range; nothing is changed. Source: the RTC5 manual 1.10 d (German), page 198."""
     def set_multi_mcbsp_in(self, Ctrl: int, P: int, Mode: int) -> None:
         """McBSP words carry their type: x, y, z, laser power and parameters; they go to the locations 0 to 3 in turn. Ctrl 0 to 255. P 0 to 4294967295 /16384. Mode -2147483648 to 2147483647. Refused out of range; nothing is changed. Source: the RTC6 manual 1.0.21, page 703."""
     def set_mcbsp_x(self, ScaleX: float) -> None:

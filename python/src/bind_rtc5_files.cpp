@@ -83,7 +83,9 @@ py::array_t<std::int32_t> get_waveform(Rtc5& self, int channel, std::int64_t cou
     const std::vector<std::int32_t> samples = order(self, [&](Engine& engine) -> Result<std::vector<std::int32_t>> {
         const rtc5::Recording& r = engine.parts().recorder.recording();
         if (r.count == 0)
-            return fail(ErrorKind::refused, "get_waveform: nothing was recorded (set_trigger); nothing was given");
+            return fail(
+                ErrorKind::refused,
+                "get_waveform: nothing was recorded. No samples were returned. Record signals with set_trigger first.");
         MOTIONRACK_CHECK(rtc5::check_parameter("get_waveform", "Channel", channel, 1, static_cast<double>(r.channels)));
         MOTIONRACK_CHECK(rtc5::check_parameter("get_waveform", "Number", static_cast<double>(count), 1,
                                                static_cast<double>(r.count)));

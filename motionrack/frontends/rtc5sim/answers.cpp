@@ -276,7 +276,9 @@ void n_measurement_status(UINT CardNo, UINT* Busy, UINT* Pos) {
 void n_get_waveform(UINT CardNo, UINT Channel, UINT Number, ULONG_PTR Ptr) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
         const rtc5::Recording& r = card.engine.parts().recorder.recording();
-        if (r.count == 0) return fail(ErrorKind::refused, "nothing was recorded (set_trigger); nothing was given");
+        if (r.count == 0)
+            return fail(ErrorKind::refused,
+                        "nothing was recorded. No samples were copied. Record signals with set_trigger first.");
         MOTIONRACK_CHECK(check_range("Channel", Channel, 1, static_cast<UINT>(r.channels)));
         MOTIONRACK_CHECK(check_range("Number", Number, 1, static_cast<UINT>(r.count)));
         // NOLINTNEXTLINE(performance-no-int-to-ptr): the command takes an address as a number

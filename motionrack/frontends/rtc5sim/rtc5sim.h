@@ -99,11 +99,11 @@ RTC5_API long load_fly_2d_table(const char* Name, UINT No);
 /* List commands are stored in the list of set_start_list: list 1 (odd numbers) or 2 (even numbers), also while it runs.
  * load_list opens a list only if it does not run (1, 2; 0: the free list, 3: the free list that ran to its end) and
  * returns its number, or 0: then no list is open. Pos of these functions and of execute_list_pos counts from the start
- * of the list; a Pos behind its end is taken as 0. Elsewhere Pos counts from 0 over all lists. Mem2 of config_list may
- * be -1: the remaining memory. get_status: bit 0 a list is running, 7 the card moves by itself, 15 paused; Pos is the
- * present position in the list. read_status: bits 0, 1 list 1, 2 is being loaded; 2, 3 its end was stored; 4, 5 it is
- * running; 6, 7 it ran to its end. load_sub: the commands up to list_return become subroutine Index, 0 .. 1023, in list
- * 3; without a command before list_return the subroutine is removed. */
+ * of the list; a Pos behind its end is taken as 0. Elsewhere Pos counts from 0 in the whole list memory. Mem2 of
+ * config_list may be -1: the remaining memory. get_status: bit 0 a list is running, 7 the card moves by itself, 15
+ * paused; Pos is the present position in the list. read_status: bits 0, 1 list 1, 2 is being loaded; 2, 3 its end was
+ * stored; 4, 5 it is running; 6, 7 it ran to its end. load_sub: the commands up to list_return become subroutine Index,
+ * 0 .. 1023, in list 3; without a command before list_return the subroutine is removed. */
 RTC5_API void config_list(UINT Mem1, UINT Mem2);
 RTC5_API void set_start_list(UINT ListNo);
 RTC5_API void set_start_list_1(void);

@@ -105,7 +105,7 @@ constexpr ControlCommand commands[] = {
      "list commands go to that position of list 1 (odd numbers) or 2 (even ones); behind its end it is 0", manual_70},
     {"get_input_pointer", {}, 1, true, false, or_wrong,
      [](Engine& e, Numbers) { return answer({e.input_pointer()}); },
-     "the position that the next list command gets, over all lists", manual_70},
+     "the position of the next list command in the whole list memory", manual_70},
     {"get_list_space", {}, 1, true, false, or_wrong,
      [](Engine& e, Numbers) { return answer({e.state().lists.input_end - e.input_pointer()}); },
      "free positions in the open list", manual_70},
@@ -120,7 +120,7 @@ constexpr ControlCommand commands[] = {
      "starts a list at a position of it; refused while a list runs or the card moves", manual_70},
     {"execute_at_pointer", {{up_to("Pos", max_place)}}, 0, true, false, or_busy,
      [](Engine& e, Numbers p) { return done(e.parts().execution.execute_at(wide(p[0]))); },
-     "starts at a position over all lists; refused while a list runs or the card moves", manual_70},
+     "starts at a position in the whole list memory; refused while a list runs or the card moves", manual_70},
     {"set_delay_mode",
      {{{"VarPoly"}, {"DirectMove3D"}, {"EdgeLevel", 0, 4294967295.0, "times 10 us"},
        {"MinJumpDelay", 0, 4294967295.0, "times 10 us"}, up_to("JumpLengthLimit", 16777215, "bits")}},
@@ -179,7 +179,7 @@ constexpr ControlCommand commands[] = {
      or_wrong, [](Engine& e, Numbers p) { return done(e.set_ext_start_delay(small(p[0]), small(p[1]))); },
      "the track delay of external starts", manual_511},
     {"set_extstartpos", {{up_to("Pos", max_place)}}, 0, true, false, or_wrong, set_extstartpos,
-     "where the list of an external start begins, over all lists", manual_511},
+     "the position in the whole list memory at which an external start begins", manual_511},
     {"simulate_ext_start_ctrl", {}, 0, true, false, or_wrong,
      [](Engine& e, Numbers) {
          e.parts().starts.trigger();
@@ -212,8 +212,9 @@ constexpr ControlCommand commands[] = {
      "the last value of a type, after set_multi_mcbsp_in", rtc6_703},
     {"set_mcbsp_in", {{up_to("Mode", 3), scale("Scale", "bits/bit")}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.parts().fly.set_mcbsp_in(small(p[0]), p[1])); },
-     "X (1), Y (2) or both (3) move with the McBSP word; 0 is off. Words go to location 0, and in Mode 1 to 1, in Mode "
-     "2 to 2; in Mode 3 X goes to 1, Y to 2, the word to 3", page_198},
+     "corrects X (Mode 1), Y (2) or both (3) by the McBSP word; 0 is off. The word is stored in memory location 0, in "
+     "Mode 1 also in location 1, in Mode 2 also in 2; Mode 3 also stores X in 1, Y in 2 and the whole word in 3",
+     page_198},
     {"set_multi_mcbsp_in", {{up_to("Ctrl", 255), {"P", 0, 4294967295.0, "/16384"},
       {"Mode", min_32, max_32}}}, 0, true, false, or_wrong,
      [](Engine& e, Numbers p) { return done(e.parts().fly.set_multi_mcbsp_in(small(p[0]), wide(p[1]), small(p[2]))); },
