@@ -25,8 +25,8 @@ class EventRequests {
     void look_anew() {
         for (Axis& axis : state_.axis) axis.gen.full_tick = true;
     }
-    /// Invalidates the next special pulse of every generator; required after a change of watched, compared or requested
-    /// values.
+    /// Invalidates Generator::next_special (the next pulse that does more than step its axes) of every generator;
+    /// required after a change of registers, of interrupt flags, or of listeners for pulses or counts.
     void forget_specials() {
         for (Axis& axis : state_.axis) axis.gen.special_known = false;
     }
