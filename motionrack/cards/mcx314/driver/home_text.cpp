@@ -164,7 +164,7 @@ std::pair<std::string, std::string> Home::input_failure(const std::string& how_f
                 "Shift the switch away from the limit, or search more slowly"};
         case HomeFault::not_released:
             return {fmt::format("{} is active and was not released within {}", switch_text(), how_far),
-                    "Check whether it is stuck or has the other level, or move the axis off it by hand"};
+                    "Check whether it is stuck or its active level is set wrongly, or move the axis off it by hand"};
         case HomeFault::edges_differ:
             return {fmt::format("{} is not sound: {}", switch_text(),
                                 conflict_->text([&](double distance) { return text(std::llround(distance)); })),

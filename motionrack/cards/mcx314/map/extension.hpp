@@ -144,7 +144,7 @@ inline constexpr StateInfo clear_states[] = {
 };
 inline constexpr TransitionInfo clear_transitions[] = {
     {"rest", "pulse", "63h, the end of step 3 of a home search, or the action OUT, with DCCE"},
-    {"pulse", "pulse", "one of these again: the pulse restarts"},
+    {"pulse", "pulse", "63h, the end of step 3 or OUT during the pulse, with DCCE: the pulse restarts"},
     {"pulse", "rest", "the pulse width has elapsed"},
 };
 inline constexpr StateInfo action_states[] = {
