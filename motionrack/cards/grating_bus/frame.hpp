@@ -56,7 +56,7 @@ struct BusTiming {
 
     /// Returns the time from the sample of one word to that of the next.
     constexpr Duration word_time() const { return t1 + t2 + t3 + 3 * clock; }
-    /// Returns the time from entering S1 to re-entering S0 with `words` (1 .. 128) scales.
+    /// Returns the duration of a frame of `words` words (1 .. 128, one a scale), from entering S1 to re-entering S0.
     constexpr Duration frame_time(int words) const { return words * (t1 + t2 + t3) + (3 * words + 1) * clock; }
     /// Returns the time from entering S1 to the sample of word `k`.
     constexpr Duration sample_at(int k) const { return k * word_time() + t1 + t2; }
