@@ -370,8 +370,8 @@ constinit const CardPlugin grating_bus_plugin = {
 
 constinit const CardPlugin grating_decoder_plugin = {
     .type = {.name = "grating_decoder",
-             .doc = "decoder card of the grating bus: counts up to 128 scales and freezes them at HOLD; a rack of "
-                    "grating_bus cards without one gets one called `decoder`",
+             .doc = "decoder card of the grating bus: counts up to 128 scales and freezes them at HOLD. If a rack "
+                    "with grating_bus cards has no decoder card, one named `decoder` is added",
              .chip_pins = grating_decoder_pins,
              .settings = grating_decoder_settings,
              .settings_of = grating_decoder_settings_of,
