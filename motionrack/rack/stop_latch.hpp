@@ -82,7 +82,8 @@ class StopLatch final : public sim::Device {
     /// Number of stop requests since the rack was created. A reset releases only the stops requested before it was
     /// commanded.
     std::uint64_t trips() const { return state_.trips; }
-    /// Returns true if this source has set the latch, first or later.
+    /// Returns true if this source has requested a stop since the latch was last released, whether or not it was the
+    /// first cause.
     bool tripped_by(StopSource source) const { return (state_.tripped & bit(source)) != 0; }
     /// Returns false if step loss is possible, if the axis did not follow, or if its card was reset. Step loss is
     /// possible after a stop without a ramp at a velocity above the start-stop rate, or if the drive failed in motion.
