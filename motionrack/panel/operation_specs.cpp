@@ -98,10 +98,11 @@ constexpr std::array arm_fields = {
     texts("channels", 16, "1 to 16 of the query channels"),
     text("trigger", 80, "one of the channels; without it the scope triggers at once", false),
     choice("edge", "rise|fall|either", "direction in which the trigger passes the level", false),
-    number("level", -1e12, 1e12, "the channel's", "of the trigger; 0.5", false),
-    number("period_us", 0.1, 1e6, "us", "from sample to sample of numbers; wires show every edge; 100", false),
-    number("length", 1e-6, 100, "s", "recorded time; 0.1", false),
-    number("pre", 0, 100, "s", "recorded time before the trigger; 0", false),
+    number("level", -1e12, 1e12, "the channel's", "trigger level; default 0.5", false),
+    number("period_us", 0.1, 1e6, "us", "sampling period of numeric channels (wires record every edge); default 100",
+           false),
+    number("length", 1e-6, 100, "s", "recorded time; default 0.1", false),
+    number("pre", 0, 100, "s", "recorded time before the trigger; default 0", false),
     choice("mode", "single|run", "single: stops after a capture; run: is armed again", false)};
 constexpr std::array mark_fields = {
     card_name, text("job", 1 << 20, "a marking job (TOML); optics and belt are the rack's"),
