@@ -1,8 +1,8 @@
-// Marks with a laser card of the rack while the rack runs. A job becomes a list, which the card executes with the
-// positions of its scan head.
+// Marks with a laser card of the rack while the rack runs: makes a command list from a marking job, loads it into the
+// card, and starts it at once or lets the start signal of each part start it.
 //
-//   job (TOML) ──worker──► list of commands ──between runs──► list 1 of the card ──execute, or each part's edge──►
-//   work piece
+//   job (TOML) ──► command list ──► list 1 of the card ──► marking, at once or at each edge of the start input
+//           in the worker    between runs
 #include <fmt/format.h>
 
 #include <array>
