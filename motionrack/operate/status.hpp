@@ -23,7 +23,7 @@ enum class MachineState : std::uint8_t {
     error_stop,  ///< stopped by the machine; a reset ends it
     service      ///< manual calls of a card's library functions; the controller drives nothing
 };
-/// Returns "standstill", "error stop".
+/// Returns the name of the state as it is shown, such as "error stop" for error_stop.
 std::string_view name_of(MachineState state);
 /// Returns true if nothing moves and no motion is pending in this state.
 constexpr bool idle(MachineState state) {
