@@ -124,7 +124,8 @@ class Run {
         (card.ok() ? verdict_.images : verdict_.refused) += 1;
         follow();
     }
-    /// A project may have restarted, or an axis been zeroed: counts have jumped.
+    /// Makes the next poll() accept any change of the counts: the card's FPGA project may have restarted, or an axis
+    /// may have been zeroed.
     void follow() { rebase_ = true; }
 
     // ---- invariants
