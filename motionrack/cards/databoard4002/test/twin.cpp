@@ -1,4 +1,4 @@
-// The twin's hardware: ports, counter, divider, events, outputs.
+// Hardware of the twin, the slow reference model of the card: ports, counter, divider, events, outputs.
 #include <cmath>
 #include <motionrack/cards/databoard4002/test/twin.hpp>
 

@@ -1,4 +1,4 @@
-// The twin's firmware: a loop that evaluates everything in every pass.
+// Firmware of the twin, the slow reference model of the card: a loop that evaluates everything in every pass.
 #include <cstdlib>
 #include <motionrack/cards/databoard4002/test/twin.hpp>
 
