@@ -1,4 +1,4 @@
-// Samples, and completion of words.
+// Samples the position once a period, and puts each sample's word on the wires after the transmission delay.
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/result.hpp>
