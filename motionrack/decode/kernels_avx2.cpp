@@ -69,7 +69,7 @@ namespace {
     return sums;
 }
 
-/// Bit 7 of 64 bytes that were shifted left.
+/// Shifts 64 bytes left by `shift` (0 .. 7) and returns bit 7 of each: byte i gives bit i of the result.
 [[gnu::target("avx2,popcnt")]] inline std::uint64_t plane_of(__m256i first, __m256i second, __m128i shift) {
     const auto low = static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_sll_epi16(first, shift)));
     const auto high = static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_sll_epi16(second, shift)));
