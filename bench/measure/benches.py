@@ -75,7 +75,7 @@ def read_results(text: str, program: Program) -> dict[str, dict]:
 
 
 def allowed(prefix: tuple[str, ...]) -> bool:
-    """Whether this machine lets us run programs so."""
+    """Returns whether this machine can run programs behind this command prefix (tried with `true`)."""
     if not prefix:
         return True
     try:
