@@ -20,7 +20,8 @@ PAGE = "docs/reference/third-party.md"
 FILES = files_of(ROOT)
 HOW = {"dynamic", "headers", "bundled", "loaded", "tool"}
 MADE = {"sample.h", "rtc5sim_cards.h"}  # by idlc and by CMake, in the build folder
-# Of C, POSIX and Linux: all below these folders, and these; what has neither folder nor ending is of C++.
+# Headers that need no row on the page: those of Linux and POSIX in these folders, the listed ones of C, POSIX and the
+# compiler, and those of C++, whose names have neither a folder nor an ending.
 SYSTEM = re.compile(
     r"(sys|linux|netinet|arpa)/.*"
     r"|(dlfcn|errno|fcntl|immintrin|math|poll|sched|std\w+|string|termios|ucontext|unistd)\.h|\w+"
