@@ -17,7 +17,9 @@ using boost::system::error_code;
 namespace {
 
 constexpr std::chrono::milliseconds tick_every{5};
-constexpr int max_taken_at_once = 32;  ///< connections; then serves these before it accepts more
+/// Number of connections that are accepted in sequence. Then these are served: each step of a STOP waits for one such
+/// sequence.
+constexpr int max_taken_at_once = 4;
 
 /// Converts an IPv4-mapped IPv6 address to IPv4.
 asio::ip::address plain(const asio::ip::address& address) {
