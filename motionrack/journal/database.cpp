@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <motionrack/journal/database.hpp>
+#include <utility>
 
 namespace motionrack::journal {
 
@@ -60,7 +61,18 @@ Result<void> Database::run(const char* sql) const {
 
 std::int64_t Database::number(const char* sql) const {
     Statement one(get(), sql);
-    return one.row() ? one.number(0) : 0;
+    return first_row(one) ? one.number(0) : 0;
+}
+
+bool Database::first_row(Statement& one) const {
+    const bool read = one.row();
+    if (!read && !one.ok() && one.fits()) read_error_ = what();
+    return read;
+}
+
+Result<void> Database::check_reads() const {
+    if (read_error_.empty()) return {};
+    return fail(ErrorKind::io, std::exchange(read_error_, {}));
 }
 
 }  // namespace motionrack::journal

@@ -20,6 +20,8 @@ class Statement {
     bool row();
     /// Returns true if row() has reached the end.
     bool ok() const { return code_ == SQLITE_DONE; }
+    /// Returns false if SQLite rejects the statement for this file: one of its tables is missing.
+    bool fits() const { return code_ != SQLITE_ERROR; }
     std::int64_t number(int column) const { return sqlite3_column_int64(statement_.get(), column); }
     std::string text(int column) const;
     void again();
@@ -43,8 +45,12 @@ class Database {
     void set_log_kept(bool kept) const;
     /// Errors: io.
     Result<void> run(const char* sql) const;
-    /// Returns the first column of the first row; 0 without rows.
+    /// Reads the first row of `one`. Returns false without rows or if it cannot be read: see check_reads().
+    bool first_row(Statement& one) const;
+    /// Returns the first column of the first row; 0 without rows or if it cannot be read: see check_reads().
     std::int64_t number(const char* sql) const;
+    /// Errors: io, with the SQLite message, if first_row() or number() could not read since the last call.
+    Result<void> check_reads() const;
     std::string what() const { return sqlite3_errmsg(database_.get()); }
 
   private:
@@ -53,6 +59,7 @@ class Database {
     };
     explicit Database(sqlite3* database) : database_(database) {}
     std::unique_ptr<sqlite3, CloseDatabase> database_;
+    mutable std::string read_error_;
 };
 
 }  // namespace motionrack::journal

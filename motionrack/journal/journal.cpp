@@ -108,7 +108,7 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, JournalS
 
 Result<void> Journal::begin() {
     const Database& file = *writer_;
-    read_last_run();
+    MOTIONRACK_CHECK(read_last_run());
     run_ = (before_ ? before_->run : 0) + 1;
     MOTIONRACK_TRY(const ChainCheck chain, check_chain(file, checked_at_start));
     if (before_ && !chain.problem.empty())
@@ -117,6 +117,7 @@ Result<void> Journal::begin() {
     ChainEnd head = chain_head(file);
     last_number_ = head.number;
     last_link_ = std::move(head.link);
+    MOTIONRACK_CHECK(file.check_reads());
     MOTIONRACK_CHECK(file.run(
         fmt::format("BEGIN IMMEDIATE; INSERT INTO run (number, begun_ms) VALUES ({}, {})", run_, utc_ms()).c_str()));
     MOTIONRACK_CHECK(remove_old_entries(file, max_entries));
@@ -126,21 +127,22 @@ Result<void> Journal::begin() {
 }
 
 /// Reads how the previous run ended and its kept values, as far as their seals match.
-void Journal::read_last_run() {
+Result<void> Journal::read_last_run() {
     const Database& file = *writer_;
     Statement last(file.get(),
                    "SELECT number, begun_ms, ended_ms IS NOT NULL, coalesce(ended_ms, 0), seal FROM run ORDER BY "
                    "number DESC LIMIT 1");
-    if (!last.row()) return;
+    if (!file.first_row(last)) return file.check_reads();
     const std::int64_t run = last.number(0), begun = last.number(1), ended = last.number(3);
     before_ = LastRun{run, last.number(2) != 0, std::max(begun, ended), {}, {}, {}};
     before_->last_ms = std::max(before_->last_ms, file.number("SELECT max(utc_ms) FROM entry"));
-    read_kept(*before_);
+    MOTIONRACK_CHECK(read_kept(*before_));
     if (before_->clean && last.text(4) != seal_of_run(run, begun, ended, seals_, chain_head(file).link))
         before_->doubts.push_back(fmt::format("the end of run {} does not fit its checksum", run));
+    return file.check_reads();
 }
 
-void Journal::read_kept(LastRun& last) {
+Result<void> Journal::read_kept(LastRun& last) {
     Statement kept(writer_->get(), "SELECT key, value, run, utc_ms, seal FROM kept");
     while (kept.row()) {
         const std::string key = kept.text(0), value = kept.text(1);
@@ -155,6 +157,8 @@ void Journal::read_kept(LastRun& last) {
         last.kept[key] = value;
         last.last_ms = std::max(last.last_ms, kept.number(3));
     }
+    if (!kept.ok()) return fail(ErrorKind::io, writer_->what());
+    return {};
 }
 
 Journal::~Journal() {
@@ -304,10 +308,11 @@ Result<void> Journal::close() {
         const std::int64_t begun =
                                writer_->number(fmt::format("SELECT begun_ms FROM run WHERE number = {}", run_).c_str()),
                            now = utc_ms();
-        const Result<void> ended =
-            writer_->run(fmt::format("UPDATE run SET ended_ms = {}, seal = '{}' WHERE number = {}", now,
-                                     seal_of_run(run_, begun, now, seals_, last_link_), run_)
-                             .c_str());
+        Result<void> ended = writer_->check_reads();
+        if (ended)
+            ended = writer_->run(fmt::format("UPDATE run SET ended_ms = {}, seal = '{}' WHERE number = {}", now,
+                                             seal_of_run(run_, begun, now, seals_, last_link_), run_)
+                                     .c_str());
         if (!ended) failed(fmt::format("could not be written: {}", ended.error().message));
     }
     if (!has_failed_) return {};

@@ -118,8 +118,8 @@ class Journal {
     Journal(std::string path, JournalSettings settings, std::unique_ptr<FileLock> lock,
             std::unique_ptr<Database> writer, std::unique_ptr<Database> reader);
     Result<void> begin();
-    void read_last_run();
-    void read_kept(LastRun& last);
+    Result<void> read_last_run();
+    Result<void> read_kept(LastRun& last);
     void work();
     bool end_work();
     void failed(const std::string& what);

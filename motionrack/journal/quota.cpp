@@ -42,6 +42,7 @@ Result<std::string> Quota::remove_oldest(const Database& file, std::int64_t ther
 
 Result<std::string> Quota::check(const Database& file) {
     const std::int64_t used = bytes_used(file);
+    MOTIONRACK_CHECK(file.check_reads());
     const double share = static_cast<double>(used) / static_cast<double>(max_bytes_);
     if (share >= 1) {
         const std::int64_t there = file.number("SELECT count(*) FROM entry");

@@ -110,6 +110,7 @@ Result<void> quick_check(const Database& database, const std::string& path) {
     std::string found = structure_of(database);
     if (found == "ok") found = numbers_of(database);
     if (found == "ok") found = runs_of(database);
+    if (const Result<void> read = database.check_reads(); !read) found = read.error().message;
     if (found == "ok") return {};
     return damaged(path, found);
 }
@@ -126,7 +127,7 @@ Result<void> check_new(const std::string& path) {
 ChainEnd chain_end(const Database& database, const char* name) {
     Statement end(database.get(), "SELECT number, link FROM chain WHERE name = ?1");
     end.bind(1, name);
-    return end.row() ? ChainEnd{end.number(0), end.text(1)} : ChainEnd{};
+    return database.first_row(end) ? ChainEnd{end.number(0), end.text(1)} : ChainEnd{};
 }
 
 }  // namespace
@@ -135,7 +136,9 @@ Result<void> prepare_tables(const Database& database, const std::string& path) {
     // Before the first write: a removed file must not reappear after a power cut.
     MOTIONRACK_CHECK(database.run("PRAGMA synchronous = EXTRA"));
     const std::int64_t id = database.number("PRAGMA application_id");
-    if (id == 0 && database.number("SELECT count(*) FROM sqlite_master") == 0) {
+    const bool is_empty = id == 0 && database.number("SELECT count(*) FROM sqlite_master") == 0;
+    MOTIONRACK_CHECK(database.check_reads());
+    if (is_empty) {
         MOTIONRACK_CHECK(check_new(path));
         MOTIONRACK_CHECK(database.run("PRAGMA journal_mode = WAL"));
         const std::string all = fmt::format(
@@ -148,6 +151,7 @@ Result<void> prepare_tables(const Database& database, const std::string& path) {
             fmt::format("'{}' is an SQLite file, but not a journal. It was not changed; name another file.", path));
     MOTIONRACK_CHECK(quick_check(database, path));
     const std::int64_t seen = database.number("PRAGMA user_version");
+    MOTIONRACK_CHECK(database.check_reads());
     if (seen < 1 || seen > version)
         return fail(ErrorKind::io, fmt::format("The journal '{}' has version {}; this program knows versions up to {}. "
                                                "It was not changed; name another file.",
@@ -176,7 +180,7 @@ Result<void> remove_old_entries(const Database& database, std::int64_t kept) {
     // The newest of those to remove; entries that were removed from outside leave gaps.
     Statement found(database.get(), "SELECT number, link FROM entry WHERE number <= ?1 ORDER BY number DESC LIMIT 1");
     found.bind(1, last);
-    if (!found.row()) return {};
+    if (!database.first_row(found)) return database.check_reads();
     MOTIONRACK_CHECK(set_chain_end(database, "base", {found.number(0), found.text(1)}));
     return database.run(fmt::format("DELETE FROM entry WHERE number <= {}", found.number(0)).c_str());
 }
@@ -187,7 +191,7 @@ namespace {
 ChainEnd before_newest(const Database& database, std::int64_t last, std::int64_t newest) {
     Statement found(database.get(), "SELECT number, link FROM entry WHERE number <= ?1 ORDER BY number DESC LIMIT 1");
     found.bind(1, last - newest);
-    if (newest > 0 && found.row()) return {found.number(0), found.text(1)};
+    if (newest > 0 && database.first_row(found)) return {found.number(0), found.text(1)};
     return chain_end(database, "base");
 }
 
@@ -214,14 +218,14 @@ Result<ChainCheck> check_chain(const Database& database, std::int64_t newest) {
         before = entry.number;
         link = stored;
     }
-    const bool whole = rows.ok();
+    Result<void> read = database.check_reads();
+    if (!rows.ok()) read = fail(ErrorKind::io, database.what());
     if (before < head.number)
         broken(fmt::format("entries {} to {} were removed", before + 1, head.number));
     else if (before != head.number || link != head.link)
         broken(fmt::format("entry {} is not the last written one", before));
-    const std::string why = whole ? std::string() : database.what();
     (void)database.run("COMMIT");
-    if (!whole) return fail(ErrorKind::io, fmt::format("The journal cannot be read: {}.", why));
+    if (!read) return fail(ErrorKind::io, fmt::format("The journal cannot be read: {}.", read.error().message));
     return out;
 }
 
