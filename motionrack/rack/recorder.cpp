@@ -373,12 +373,14 @@ Result<void> Recorder::finish() {
     poll();
     drain();
     Result<void> ended = sink_->close(std::max(rack_.kernel().now(), last_));
-    if (ended && lost_ > 0)
-        ended =
-            fail(ErrorKind::io, fmt::format("{} {} of one instant exceed the limit of a recording and were omitted.",
-                                            lost_, events_ ? "events" : "changes"));
+    closed_ = ended.has_value();
+    if (closed_ && lost_ > 0)
+        ended = fail(ErrorKind::io,
+                     fmt::format("{} {} of one instant exceed the limit of a recording and were omitted. The recording "
+                                 "has all others; select fewer signals to record all.",
+                                 lost_, events_ ? "events" : "changes"));
     failed_ = !ended;
-    if (ended || !sink_->can_end_again()) stop_listening();
+    if (!can_end_again()) stop_listening();
     return ended;
 }
 

@@ -90,7 +90,9 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     /// Returns true if the last finish() failed.
     bool failed() const { return failed_; }
     /// Returns true if finish() may be retried after a failure.
-    bool can_end_again() const { return sink_->can_end_again(); }
+    bool can_end_again() const { return !closed_ && sink_->can_end_again(); }
+    /// Returns true if the recording is complete, apart from omitted changes.
+    bool is_closed() const { return closed_; }
     Duration period() const { return period_; }
 
     void on_scheduled(Instant now) override;
@@ -151,7 +153,7 @@ class Recorder final : public sim::Device, public sim::Kernel::WireObserver {
     bool is_device_ = false, borrows_device_ = false;
     bool due_ = false;
     bool recording_ = false;
-    bool failed_ = false;
+    bool failed_ = false, closed_ = false;
     Declaration declared_;
     std::shared_ptr<ChangeSink> sink_;
     std::size_t wires_begin_ = 0, wires_end_ = 0;  // range of the channels that are kernel wires

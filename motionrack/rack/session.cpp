@@ -235,7 +235,7 @@ Result<void> Session::start_trace(const std::string& path, std::string_view sign
 Result<void> Session::stop_trace() {
     if (!recorder_) return fail(ErrorKind::refused, "No recording runs; nothing was done.");
     Result<void> ended = recorder_->finish();
-    if (!ended) {
+    if (!recorder_->is_closed()) {
         ended.error().message += recorder_->can_end_again()
                                      ? " The recording continues; stop it again, or start another one."
                                      : " The recording is lost; start another one.";
@@ -243,7 +243,7 @@ Result<void> Session::stop_trace() {
     }
     recorder_.reset();
     next_poll_ = never;
-    return {};
+    return ended;
 }
 
 }  // namespace motionrack::rack

@@ -1,5 +1,5 @@
 // Channels that a recorder samples by functions.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <bit>
 #include <memory>
@@ -102,6 +102,19 @@ TEST(Recorder, EndsARunBeforeItsBufferOfSamplesIsFull) {
     EXPECT_GT(ended, 1);
     EXPECT_EQ(bench.kept.size(), 200'000u) << "two each 2 ms";
     EXPECT_TRUE(bench.recorder->finish()) << "none was omitted";
+}
+
+TEST(Recorder, ReportsOmittedChangesOfARecordingThatIsOtherwiseComplete) {
+    SampledTime bench(false);
+    sim::Kernel& kernel = bench.rack.kernel();
+    while (kernel.run_until(whole_seconds(200)) == sim::RunEnd::broken) continue;  // nothing drains the buffer
+    const Result<void> ended = bench.recorder->finish();
+    ASSERT_FALSE(ended);
+    EXPECT_THAT(ended.error().message, testing::HasSubstr("The recording has all others"));
+    EXPECT_TRUE(bench.recorder->is_closed());
+    EXPECT_FALSE(bench.recorder->can_end_again());
+    EXPECT_GT(bench.kept.size(), 100'000u);
+    EXPECT_LT(bench.kept.size(), 200'000u);
 }
 
 TEST(Recorder, StopsListeningOnceItCannotBeEndedAnyMore) {
