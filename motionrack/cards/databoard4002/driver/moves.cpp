@@ -82,8 +82,8 @@ Result<void> Driver::run_move(std::uint8_t wanted, bool forward, Duration timeou
     MOTIONRACK_TRY(const Events old, enable_events(static_cast<std::uint8_t>(wanted | event::STOP | wake)));
     if (old.was_reset())
         return fail(ErrorKind::machine,
-                    fmt::format("Card {} was reset since it was set up; position and table are lost, so it was not "
-                                "moved. Set it up again.",
+                    fmt::format("Card {} was reset, and no program has connected to it since; position and table are "
+                                "lost, so it was not moved. Connect to it, then set both again.",
                                 settings_.select));
     MOTIONRACK_CHECK(go());
     const Instant until = later(interrupt_.now(), timeout);

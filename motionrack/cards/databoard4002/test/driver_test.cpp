@@ -179,7 +179,7 @@ TEST(Databoard4002Driver, RejectsMovesDuringAnEmergencyStopAndAfterAReset) {
     rig.driver.reset();
     const auto again = rig.driver.move_to(100, whole_seconds(1));
     ASSERT_FALSE(again);
-    EXPECT_THAT(again.error().message, HasSubstr("was reset since it was set up"));
+    EXPECT_THAT(again.error().message, HasSubstr("Connect to it, then set both again"));
 }
 
 TEST(Databoard4002Driver, ReportsATimeoutOfAHungCardAndDetectsItsRestart) {
