@@ -83,6 +83,7 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
                            fmt::format("This is not an HTTP/1.1 request: {}. Nothing was done.", error.message())),
                 false);
         if (error) return;
+        peer_.local = unmapped(stream_.tcp().socket().local_endpoint(error).address()).to_string();
         peer_.stop_only = !pool_->open_connections.take_slot(this, peer_.network);
         head_ = head_of(parser_->get(), peer_);
         head_.has_more = !parser_->is_done() || (head_.upgrade && buffer_.size() > 0);

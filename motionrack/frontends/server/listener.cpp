@@ -21,18 +21,11 @@ constexpr std::chrono::milliseconds tick_every{5};
 /// sequence.
 constexpr int max_taken_at_once = 4;
 
-/// Converts an IPv4-mapped IPv6 address to IPv4.
-asio::ip::address plain(const asio::ip::address& address) {
-    if (address.is_v6() && address.to_v6().is_v4_mapped())
-        return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
-    return address;
-}
-
 /// Makes data for a slow reader wait in the client's queue, which drops snapshots, not in the kernel's, which keeps
 /// all.
-void keep_little_in_the_kernel(tcp::socket& socket) {
+void keep_little_in_the_kernel(tcp::acceptor& acceptor) {
     const int unsent = 16 * 1024;
-    ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
+    ::setsockopt(acceptor.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
 }
 
 }  // namespace
@@ -43,6 +36,8 @@ Result<tcp::acceptor> take_port(asio::io_context& io, const asio::ip::address& a
     const tcp::endpoint endpoint(address, port);
     acceptor.open(endpoint.protocol(), error);
     if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+    if (!error) acceptor.set_option(tcp::no_delay(true), error);  // its connections inherit these two
+    if (!error) keep_little_in_the_kernel(acceptor);
     if (!error) acceptor.bind(endpoint, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
     if (!error) acceptor.non_blocking(true, error);
@@ -109,9 +104,10 @@ void PortListener::take_some() {
     for (int taken = 0; taken < max_taken_at_once; ++taken) {
         error_code error;
         tcp::socket socket(io_);
-        acceptor_.accept(socket, error);
+        tcp::endpoint remote;
+        acceptor_.accept(socket, remote, error);
         if (!error) {
-            take(std::move(socket));
+            take(std::move(socket), remote.address());
             continue;
         }
         if (error == asio::error::would_block) break;
@@ -131,17 +127,12 @@ bool PortListener::close_idle() {
     return reserve_.give() || pool_->open_connections.end_a_caller();
 }
 
-void PortListener::take(tcp::socket socket) {
-    error_code error;
-    const tcp::endpoint remote = socket.remote_endpoint(error),
-                        local = error ? tcp::endpoint() : socket.local_endpoint(error);
-    if (error) return;  // already closed
-    socket.set_option(tcp::no_delay(true), error);
-    keep_little_in_the_kernel(socket);
+/// Connections of a flood cost what is done here: all else waits for their first bytes.
+void PortListener::take(tcp::socket socket, const asio::ip::address& from) {
+    const asio::ip::address remote = unmapped(from);
     Peer peer;
-    peer.address = plain(remote.address()).to_string();
-    peer.local = plain(local.address()).to_string();
-    peer.loopback = plain(remote.address()).is_loopback();
+    peer.address = remote.to_string();
+    peer.loopback = remote.is_loopback();
     peer.secure = tls_ != nullptr;
     peer.network = network_of(peer.address);
     serve(tls_ ? Transport(std::move(socket), *tls_) : Transport(std::move(socket)), std::move(peer), pool_);

@@ -23,6 +23,12 @@ std::string only_field(const Request& request, http::field name) {
 
 }  // namespace
 
+asio::ip::address unmapped(const asio::ip::address& address) {
+    if (address.is_v6() && address.to_v6().is_v4_mapped())
+        return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6());
+    return address;
+}
+
 RequestHead head_of(const Request& request, const Peer& peer) {
     RequestHead head;
     head.peer = peer;

@@ -18,6 +18,8 @@ namespace http = boost::beast::http;
 using Request = http::request<http::string_body>;
 using Response = http::response<http::span_body<const char>>;
 
+/// Converts an IPv4-mapped IPv6 address to IPv4.
+asio::ip::address unmapped(const asio::ip::address& address);
 RequestHead head_of(const Request& request, const Peer& peer);
 /// Converts an answer; the response refers to its body, which must outlive it.
 Response response_of(const HttpAnswer& answer, bool head_only, bool keep_alive);

@@ -1,29 +1,43 @@
 // Byte streams over TCP, and over TLS on TCP.
-#include <boost/asio/post.hpp>
+#include <algorithm>
+#include <boost/asio/ssl/error.hpp>
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/beast/ssl/ssl_stream.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 #include <boost/beast/websocket/teardown.hpp>
 #include <motionrack/frontends/server/transport.hpp>
+#include <utility>
 
 namespace motionrack::server {
 
+namespace {
+
+// The header of a TLS record: its type, two bytes of the version, two of the length (RFC 8446, 5.1).
+constexpr std::size_t header_size = 5, max_record = 16 * 1024, usual_record = 2048;
+constexpr char handshake_type = 22;
+
+std::size_t record_size(const std::string& header) {
+    const auto byte = [&](std::size_t at) { return std::size_t{static_cast<unsigned char>(header[at])}; };
+    return header_size + (byte(3) << 8 | byte(4));
+}
+
+}  // namespace
+
 struct Transport::Tls {
-    Tls(asio::ip::tcp::socket socket, asio::ssl::context& context)
-        : stream(beast::tcp_stream(std::move(socket)), context) {}
+    Tls(beast::tcp_stream tcp, asio::ssl::context& context) : stream(std::move(tcp), context) {}
     beast::ssl_stream<beast::tcp_stream> stream;
 };
 
 Transport::Transport(asio::ip::tcp::socket socket) : plain_(std::move(socket)) {}
 
 Transport::Transport(asio::ip::tcp::socket socket, asio::ssl::context& tls)
-    : tls_(std::make_unique<Tls>(std::move(socket), tls)) {}
+    : context_(&tls), plain_(std::move(socket)) {}
 
 Transport::Transport(Transport&&) noexcept = default;
 Transport::~Transport() = default;
 
 bool Transport::secure() const {
-    return !plain_;
+    return context_ != nullptr;
 }
 
 beast::tcp_stream& Transport::tcp() {
@@ -31,9 +45,35 @@ beast::tcp_stream& Transport::tcp() {
 }
 
 void Transport::handshake(CompletionHandler done) {
-    if (plain_) return done({});
-    tls_->stream.async_handshake(asio::ssl::stream_base::server,
-                                 [done = std::move(done)](error_code error) mutable { done(error); });
+    if (!secure()) return done({});
+    first_record_.resize(usual_record);
+    read_first_record(std::move(done));
+}
+
+void Transport::read_first_record(CompletionHandler done) {
+    plain_->async_read_some(asio::buffer(&first_record_[received_], first_record_.size() - received_),
+                            [this, done = std::move(done)](error_code error, std::size_t bytes) mutable {
+                                received_ += bytes;
+                                if (error) return done(error);
+                                took_first_record(std::move(done));
+                            });
+}
+
+void Transport::took_first_record(CompletionHandler done) {
+    const std::size_t size = received_ < header_size ? header_size : record_size(first_record_);
+    if (first_record_.front() != handshake_type || size > header_size + max_record)
+        return done(asio::ssl::error::unexpected_result);
+    if (received_ < size) {
+        first_record_.resize(std::max(first_record_.size(), size));
+        return read_first_record(std::move(done));
+    }
+    tls_ = std::make_unique<Tls>(std::move(*plain_), *context_);
+    plain_.reset();
+    tls_->stream.async_handshake(asio::ssl::stream_base::server, asio::buffer(first_record_.data(), received_),
+                                 [this, done = std::move(done)](error_code error, std::size_t = 0) mutable {
+                                     first_record_ = std::string();
+                                     done(error);
+                                 });
 }
 
 void Transport::shut_down(CompletionHandler done) {

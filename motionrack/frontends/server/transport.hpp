@@ -11,6 +11,7 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace motionrack::server {
 
@@ -88,7 +89,8 @@ class Transport {
     beast::tcp_stream& tcp();
     executor_type get_executor() { return tcp().get_executor(); }
 
-    /// Performs the TLS handshake; completes at once without TLS.
+    /// Performs the TLS handshake; completes at once without TLS. Memory and time for TLS are spent only on a client
+    /// whose first record, of at most 16 KiB, has arrived as a whole.
     void handshake(CompletionHandler done);
     void shut_down(CompletionHandler done);
 
@@ -122,8 +124,13 @@ class Transport {
 
   private:
     struct Tls;
-    std::optional<beast::tcp_stream> plain_;
+    void read_first_record(CompletionHandler done);
+    void took_first_record(CompletionHandler done);
+    asio::ssl::context* context_ = nullptr;   ///< nullptr: without TLS
+    std::optional<beast::tcp_stream> plain_;  ///< without TLS, or before its handshake
     std::unique_ptr<Tls> tls_;
+    std::string first_record_;
+    std::size_t received_ = 0;  ///< bytes of first_record_
 };
 
 }  // namespace motionrack::server

@@ -43,6 +43,44 @@ void make_certificate(const fs::path& certificate_file, const fs::path& key_file
     ::EVP_PKEY_free(key);
 }
 
+/// A TLS client whose bytes a test carries to the server and back.
+class CarriedClient {
+  public:
+    CarriedClient() : context_(::SSL_CTX_new(::TLS_client_method())), tls_(::SSL_new(context_)) {
+        ::SSL_set_bio(tls_, ::BIO_new(::BIO_s_mem()), ::BIO_new(::BIO_s_mem()));
+        ::SSL_set_connect_state(tls_);
+    }
+    ~CarriedClient() {
+        ::SSL_free(tls_);
+        ::SSL_CTX_free(context_);
+    }
+    CarriedClient(const CarriedClient&) = delete;
+    CarriedClient& operator=(const CarriedClient&) = delete;
+
+    /// Continues the handshake with bytes from the server. Returns true once it is complete.
+    bool take(std::string_view bytes) {
+        ::BIO_write(::SSL_get_rbio(tls_), bytes.data(), static_cast<int>(bytes.size()));
+        return ::SSL_do_handshake(tls_) == 1;
+    }
+    /// Returns the bytes to send to the server.
+    std::string give() {
+        std::string out(::BIO_ctrl_pending(::SSL_get_wbio(tls_)), '\0');
+        ::BIO_read(::SSL_get_wbio(tls_), out.data(), static_cast<int>(out.size()));
+        return out;
+    }
+
+  private:
+    SSL_CTX* context_;
+    SSL* tls_;
+};
+
+/// Returns the first record of a client.
+std::string client_hello() {
+    CarriedClient client;
+    client.take("");
+    return client.give();
+}
+
 class TlsServer : public testing::Test {
   protected:
     TlsServer() : folder(fs::temp_directory_path() / ("tls-" + std::to_string(::getpid()))) {
@@ -84,10 +122,62 @@ TEST_F(TlsServer, SendsNothingToAClientWithoutTls) {
     EXPECT_EQ(good.ask("POST", "/api/stop").status, 200);
 }
 
+TEST_F(TlsServer, ServesAClientWhoseHandshakeArrivesByteByByte) {
+    Running running(tls());
+    const WebClient carrier(running.port());
+    CarriedClient client;
+    std::string received;
+    while (!client.take(received)) {
+        for (const char one : client.give()) {
+            ASSERT_EQ(::send(carrier.descriptor(), &one, 1, MSG_NOSIGNAL), 1);
+            std::this_thread::sleep_for(std::chrono::microseconds(100));
+        }
+        received.resize(4096);
+        const ssize_t bytes = ::recv(carrier.descriptor(), received.data(), received.size(), 0);
+        ASSERT_GT(bytes, 0) << "the server closed the connection";
+        received.resize(static_cast<std::size_t>(bytes));
+    }
+}
+
+TEST_F(TlsServer, ServesAClientWhoseFirstRecordIsLong) {
+    Running running(tls());
+    std::string hello = client_hello();
+    const std::size_t more = 10'000;  // an unknown extension (RFC 8446, 4.1.2 and 4.2)
+    const auto add = [&](std::size_t at, std::size_t size, std::size_t added) {
+        std::size_t value = added;
+        for (std::size_t i = 0; i < size; ++i)
+            value += std::size_t{static_cast<unsigned char>(hello[at + i])} << 8 * (size - 1 - i);
+        for (std::size_t i = 0; i < size; ++i) hello[at + i] = static_cast<char>(value >> 8 * (size - 1 - i));
+    };
+    const std::size_t session = 5 + 4 + 2 + 32, suites = session + 1 + static_cast<unsigned char>(hello[session]),
+                      suites_size = static_cast<unsigned char>(hello[suites]) << 8 |
+                                    static_cast<unsigned char>(hello[suites + 1]),
+                      methods = suites + 2 + suites_size,
+                      extensions = methods + 1 + static_cast<unsigned char>(hello[methods]);
+    add(3, 2, more + 4), add(6, 3, more + 4), add(extensions, 2, more + 4);
+    hello += {'\xfa', '\xfa', static_cast<char>(more >> 8), static_cast<char>(more & 0xff)};
+    hello += std::string(more, 'x');
+    WebClient client(running.port());
+    client.send(hello);
+    char first = 0;
+    ASSERT_EQ(::recv(client.descriptor(), &first, 1, 0), 1) << "the server closed the connection";
+    EXPECT_EQ(first, 22) << "its own hello";
+}
+
+TEST_F(TlsServer, ClosesAConnectionThatBeginsWithoutAHandshake) {
+    Running running(tls());
+    for (const std::string& says : {std::string("\x17\x03\x03\x00\x01x", 6), std::string("\x16\x03\x01\xff\xff\x01", 6),
+                                    std::string("GET / HTTP/1.1\r\n\r\n")}) {
+        WebClient client(running.port());
+        client.send(says);
+        EXPECT_TRUE(client.ended()) << says;
+    }
+}
+
 TEST_F(TlsServer, ExecutesStopInAFloodOfIncompleteHandshakes) {
     Running running(tls());
     const std::string half_a_hello("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11);
-    for (const std::string& says : {std::string(), half_a_hello, std::string("GET / HTTP/1.1\r\n\r\n")})
+    for (const std::string& says : {std::string(), half_a_hello, std::string("GET / HTTP/1.1\r\n\r\n"), client_hello()})
         for (const std::size_t held : {0u, 400u}) {
             const Flood flood(running.port(), held, Flood::Address::another, says);
             expect_stops_heard(flood, fmt::format("{} bytes said, {} connections held", says.size(), held),
