@@ -127,7 +127,7 @@ bool PortListener::close_idle() {
     return reserve_.give() || pool_->open_connections.end_a_caller();
 }
 
-/// Connections of a flood cost what is done here: all else waits for their first bytes.
+/// Each connection of a flood costs this; everything else waits for its first bytes.
 void PortListener::take(tcp::socket socket, const asio::ip::address& from) {
     const asio::ip::address remote = unmapped(from);
     Peer peer;
