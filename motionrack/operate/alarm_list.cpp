@@ -6,6 +6,13 @@
 namespace motionrack::operate {
 
 Alarm& AlarmList::raise(std::string source, std::string text, char axis) {
+    const auto same = std::find_if(alarms_.begin(), alarms_.end(), [&](const Alarm& alarm) {
+        return alarm.active && alarm.source == source && alarm.text == text && alarm.axis == axis;
+    });
+    if (same != alarms_.end()) {
+        same->acknowledged = false;
+        return *same;
+    }
     if (axis != '\0') supersede({&axis, 1});
     alarms_.erase(std::remove_if(alarms_.begin(), alarms_.end(),
                                  [](const Alarm& alarm) { return !alarm.active && alarm.acknowledged; }),

@@ -18,7 +18,8 @@ class AlarmList {
         : rack_(rack), alarms_(alarms), max_(max) {}
 
     /// Adds an active alarm; one of an axis replaces the axis' earlier ones. Ended and acknowledged alarms are removed
-    /// first, then the oldest. The result is valid until the next alarm.
+    /// first, then the oldest. An alarm that is active already is not added again, but has to be acknowledged again.
+    /// The result is valid until the next alarm.
     Alarm& raise(std::string source, std::string text, char axis = '\0');
     /// Raises one alarm for each of these, with its source, text and axis; ignores their other fields.
     void raise(std::vector<Alarm> alarms);

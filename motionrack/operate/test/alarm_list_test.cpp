@@ -52,6 +52,18 @@ TEST_F(AlarmListTest, RemovesFirstWhatIsOverAndAcknowledged) {
     EXPECT_EQ(active(), "-++");
 }
 
+TEST_F(AlarmListTest, HasAnActiveAlarmOnceAndAsksAgainToAcknowledgeIt) {
+    list.raise("position", "A line of the encoder is faulty.");
+    list.raise("machine", "A line of the encoder is faulty.");
+    list.raise("position", "A line of the encoder is faulty.", 'X');
+    EXPECT_TRUE(list.acknowledge(1));
+    EXPECT_EQ(list.raise("position", "A line of the encoder is faulty.").number, 1);
+    EXPECT_THAT(numbers(), ElementsAre(1, 2, 3));
+    EXPECT_FALSE(alarms[0].acknowledged);
+    list.reset();
+    EXPECT_EQ(list.raise("position", "A line of the encoder is faulty.").number, 4) << "the reset ended the first";
+}
+
 TEST_F(AlarmListTest, AcknowledgesNoUnknownAlarm) {
     list.raise("machine", "one");
     EXPECT_FALSE(list.acknowledge(2));
