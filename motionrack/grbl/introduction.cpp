@@ -16,6 +16,21 @@ bool is_greeting(char c) {
     return c == '?' || c == '!' || c == '~' || c == '\r' || c == '\n' || c == reset_byte;
 }
 
+/// Returns true if HTTP could have a method of these characters; that of a browser's page can be as long as its first
+/// packet.
+bool is_long_method(std::string_view bytes) {
+    constexpr std::size_t max_of_a_sender = 16;
+    return bytes.size() > max_of_a_sender && bytes.find_first_not_of("!~") == std::string_view::npos;
+}
+
+/// Returns true for "METHOD TARGET HTTP/VERSION", whatever its method and target are: RFC 9112, 3.
+bool is_request_line(std::string_view line) {
+    constexpr std::string_view protocol = " HTTP/";
+    const std::size_t at = line.rfind(protocol);
+    return at != std::string_view::npos &&
+           line.find_first_not_of("0123456789. \t", at + protocol.size()) == std::string_view::npos;
+}
+
 /// Returns true for letters with numbers, as in "G1X-1.5F600" and "M115".
 bool is_words(std::string_view text) {
     const char *at = text.data(), *const end = text.data() + text.size();
@@ -55,10 +70,15 @@ bool is_text(std::string_view bytes) {
 Introduction::Verdict Introduction::receive(std::string_view bytes) {
     bytes_ += bytes;
     if (!is_text(bytes_)) return Verdict::stranger;
-    if (std::all_of(bytes_.begin(), bytes_.end(), is_greeting)) return bytes_.empty() ? Verdict::open : Verdict::sender;
+    const bool is_greeted = std::all_of(bytes_.begin(), bytes_.end(), is_greeting);
+    if (is_greeted && !is_long_method(bytes_)) return bytes_.empty() ? Verdict::open : Verdict::sender;
     InputParser lines;
     bool begun = false;  // a line with content
+    std::string raw;     // the line as it was sent
     for (const char c : bytes_) {
+        const bool ends = c == '\n' || c == '\r';
+        if (ends && is_request_line(std::exchange(raw, {}))) return Verdict::stranger;
+        if (!ends) raw += c;
         if (realtime_of(static_cast<std::uint8_t>(c))) continue;
         lines.put(static_cast<std::uint8_t>(c));
         const auto line = lines.next();

@@ -5,8 +5,9 @@
 //                ├─ the start of such a line ─────────► open: the bytes wait for more
 //                └─ anything else ─────────────────────► stranger: TLS, HTTP, SSH, binary; nothing was done
 //
-// A browser page of any origin can open a connection to any port of this computer. But it cannot choose the first
-// bytes: the 16 hex of a TLS hello, the method of HTTP, the zeros of STUN.
+// A browser page of any origin can open a connection to any port of this computer, and choose the method and the target
+// of an HTTP request: "$X", "G1X9", "!". It cannot choose the end of the request's first line, HTTP/1.1, or the first
+// bytes of other protocols: the 16 hex of a TLS hello, the zeros of STUN.
 #pragma once
 
 #include <cstdint>

@@ -51,6 +51,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Greeting{"fetches", "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n"},
                     Greeting{"posts lines", "POST / HTTP/1.1\r\n\r\nG1 X5 F600\n"},
                     Greeting{"has a method of its own", "G1X9 / HTTP/1.1\r\n"},
+                    Greeting{"has a command as method", "$X / HTTP/1.1\r\nHost: a\r\n\r\n$X\nG91\nG1X50F1000\n"},
+                    Greeting{"has a line and a comment", "G1X9 /;x HTTP/1.1\r\nHost: a\r\n\r\n$X\n"},
+                    Greeting{"has a line and a bracket", "G1X9 /(x HTTP/1.0\r\n\r\n"},
+                    Greeting{"has a hold and a comment", "! /;x HTTP/1.1\r\n\r\n"},
+                    Greeting{"has a long method of holds", std::string(1460, '!')},
+                    Greeting{"has empty lines before it", "\r\n\r\n$X / HTTP/1.1\r\n\r\n"},
                     Greeting{"says hello in TLS", std::string("\x16\x03\x01\x02\x00\x18\n\x18!~", 10)},
                     Greeting{"shakes hands for SSH", "SSH-2.0-OpenSSH_9.2p1 Debian-2\r\n"},
                     Greeting{"asks in STUN", std::string("\x00\x03\x00\x08\x21\x12\xA4\x42", 8)},
@@ -82,14 +88,16 @@ std::string tempting(std::mt19937& random) {
 }
 
 std::string first_packet(std::mt19937& random) {
-    const std::vector<std::string> methods = {"GET",    "POST",  "PUT",     "HEAD",  "OPTIONS",
-                                              "DELETE", "PATCH", "CONNECT", "TRACE", "PROPFIND"};
+    const std::vector<std::string> methods = {"GET",     "POST",  "PUT",      "HEAD", "OPTIONS", "DELETE", "PATCH",
+                                              "CONNECT", "TRACE", "PROPFIND", "$X",   "G1X9",    "!",      "$H"};
+    const std::vector<std::string> targets = {"/", "/;", "/(", "/%"};
     switch (random() % 5) {
         case 0:
             return std::string("\x16\x03", 2) + static_cast<char>(random() % 4) + tempting(random);
         case 1:
-            return methods[random() % methods.size()] + " /" + std::to_string(random()) + "?!~ HTTP/1." +
-                   std::to_string(random() % 2) + "\r\nHost: 127.0.0.1:40123\r\n\r\n" + tempting(random);
+            return methods[random() % methods.size()] + " " + targets[random() % targets.size()] +
+                   std::to_string(random()) + "?!~ HTTP/1." + std::to_string(random() % 2) +
+                   "\r\nHost: 127.0.0.1:40123\r\n\r\n" + tempting(random);
         case 2:
             return "SSH-2.0-" + std::to_string(random()) + "\r\n" + tempting(random);
         case 3:
