@@ -32,9 +32,11 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
     ~Connection() override { pool_->open_connections.leave(this); }
 
     void begin() {
+        if (!stream_.secure()) return read_head(limits().header);
         expire(limits().header);
-        stream_.handshake(CompletionHandler([self = shared_from_this()](error_code error) {
-            if (!error) self->read_head(self->limits().header);
+        stream_.read_hello(CompletionHandler([self = shared_from_this()](error_code error) {
+            if (error) return;
+            self->pool_->handshakes.wait(self->peer_.network, [self] { return self->shake_hands(); });
         }));
     }
 
@@ -59,6 +61,13 @@ class Connection final : public OpenConnection, public std::enable_shared_from_t
         return error.category() == make_error_code(http::error::bad_method).category();
     }
     const Limits& limits() const { return pool_->service->settings().limits; }
+    bool shake_hands() {
+        if (ended_) return false;
+        stream_.handshake(CompletionHandler([self = shared_from_this()](error_code error) {
+            if (!error) self->read_head(self->limits().header);
+        }));
+        return true;
+    }
     void expire(std::chrono::milliseconds time) {
         stream_.tcp().expires_after(peer_.stop_only ? std::min(time, limits().spare_time) : time);
     }

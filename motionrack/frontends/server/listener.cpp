@@ -17,9 +17,9 @@ using boost::system::error_code;
 namespace {
 
 constexpr std::chrono::milliseconds tick_every{5};
-/// Number of connections that are accepted in sequence. Then these are served: each step of a STOP waits for one such
-/// sequence.
-constexpr int max_taken_at_once = 4;
+/// Number of connections that are accepted in sequence. Each step of a STOP waits for one such sequence; a flood that
+/// is accepted more slowly than it arrives fills the kernel's queue, and then each new client waits for a second.
+constexpr int max_taken_at_once = 32;
 
 /// Makes data for a slow reader wait in the client's queue, which drops snapshots, not in the kernel's, which keeps
 /// all.

@@ -44,34 +44,31 @@ beast::tcp_stream& Transport::tcp() {
     return plain_ ? *plain_ : tls_->stream.next_layer();
 }
 
-void Transport::handshake(CompletionHandler done) {
-    if (!secure()) return done({});
-    first_record_.resize(usual_record);
-    read_first_record(std::move(done));
-}
-
-void Transport::read_first_record(CompletionHandler done) {
-    plain_->async_read_some(asio::buffer(&first_record_[received_], first_record_.size() - received_),
+void Transport::read_hello(CompletionHandler done) {
+    hello_.resize(std::max(hello_.size(), usual_record));
+    plain_->async_read_some(asio::buffer(&hello_[received_], hello_.size() - received_),
                             [this, done = std::move(done)](error_code error, std::size_t bytes) mutable {
                                 received_ += bytes;
                                 if (error) return done(error);
-                                took_first_record(std::move(done));
+                                took_hello(std::move(done));
                             });
 }
 
-void Transport::took_first_record(CompletionHandler done) {
-    const std::size_t size = received_ < header_size ? header_size : record_size(first_record_);
-    if (first_record_.front() != handshake_type || size > header_size + max_record)
+void Transport::took_hello(CompletionHandler done) {
+    const std::size_t size = received_ < header_size ? header_size : record_size(hello_);
+    if (hello_.front() != handshake_type || size > header_size + max_record)
         return done(asio::ssl::error::unexpected_result);
-    if (received_ < size) {
-        first_record_.resize(std::max(first_record_.size(), size));
-        return read_first_record(std::move(done));
-    }
+    if (received_ >= size) return done({});
+    hello_.resize(std::max(hello_.size(), size));
+    read_hello(std::move(done));
+}
+
+void Transport::handshake(CompletionHandler done) {
     tls_ = std::make_unique<Tls>(std::move(*plain_), *context_);
     plain_.reset();
-    tls_->stream.async_handshake(asio::ssl::stream_base::server, asio::buffer(first_record_.data(), received_),
+    tls_->stream.async_handshake(asio::ssl::stream_base::server, asio::buffer(hello_.data(), received_),
                                  [this, done = std::move(done)](error_code error, std::size_t = 0) mutable {
-                                     first_record_ = std::string();
+                                     hello_ = std::string();
                                      done(error);
                                  });
 }

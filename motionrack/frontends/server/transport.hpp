@@ -89,8 +89,10 @@ class Transport {
     beast::tcp_stream& tcp();
     executor_type get_executor() { return tcp().get_executor(); }
 
-    /// Performs the TLS handshake; completes at once without TLS. Memory and time for TLS are spent only on a client
-    /// whose first record, of at most 16 KiB, has arrived as a whole.
+    /// Reads the client's first record, of at most 16 KiB, before which TLS takes neither memory nor time. With TLS
+    /// only.
+    void read_hello(CompletionHandler done);
+    /// Performs the TLS handshake. Call once, after read_hello().
     void handshake(CompletionHandler done);
     void shut_down(CompletionHandler done);
 
@@ -124,13 +126,12 @@ class Transport {
 
   private:
     struct Tls;
-    void read_first_record(CompletionHandler done);
-    void took_first_record(CompletionHandler done);
+    void took_hello(CompletionHandler done);
     asio::ssl::context* context_ = nullptr;   ///< nullptr: without TLS
     std::optional<beast::tcp_stream> plain_;  ///< without TLS, or before its handshake
     std::unique_ptr<Tls> tls_;
-    std::string first_record_;
-    std::size_t received_ = 0;  ///< bytes of first_record_
+    std::string hello_;
+    std::size_t received_ = 0;  ///< bytes of hello_
 };
 
 }  // namespace motionrack::server
