@@ -1,4 +1,4 @@
-"""What ctest knows of the tests of a build."""
+"""Tests of a build, as ctest lists them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 
 def entries(build: Path, options: list[str]) -> list[dict[str, Any]]:
-    """The tests that ctest chooses with these options, each with its properties and, if it can run, its command."""
+    """Returns the tests that ctest chooses with these options: properties and, if the test can run, its command."""
     shown = subprocess.run(
         ["ctest", "--test-dir", str(build), "--show-only=json-v1", *options], capture_output=True, text=True, check=True
     )

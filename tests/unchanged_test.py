@@ -1,6 +1,6 @@
-"""Which tests tests/unchanged leaves out: python3 -m unittest -v unchanged_test
+"""Tests of tests/unchanged, which leaves out unchanged tests: python3 -m unittest -v unchanged_test
 
-A build of four tests, made by hand: each writes its name into a file when it runs.
+The build has four handmade tests, each of which writes its name into a file when it runs.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Unchanged(unittest.TestCase):
         (self.root / "CTestTestfile.cmake").write_text("\n".join(lines) + "\n")
 
     def ran(self, *options: str, code: int = 0, **variables: str) -> set[str]:
-        """Runs the tests; those that ran."""
+        """Runs the tests; returns the names of those that ran."""
         log = self.root / "ran"
         log.unlink(missing_ok=True)
         environment = {**os.environ, "RC_PARAMS": "seed=1", **variables}

@@ -1,8 +1,8 @@
-"""The program and the libraries are built so that a slip of memory ends a program instead of serving a stranger:
+"""Test that the program and the libraries are built with protection against the exploitation of memory errors:
 hardened.py PROGRAM LIBRARY...
 
-    readelf ─► RELRO, BIND_NOW, a stack that is not executable, stack protector
-            └► of the PROGRAM: PIE, FORTIFY, assertions of the C++ library
+    readelf ─► position-independent code, RELRO, BIND_NOW, no executable stack, stack protector
+            └► of the PROGRAM also: PIE, FORTIFY, assertions of the C++ library
 """
 
 from __future__ import annotations

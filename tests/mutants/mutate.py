@@ -1,4 +1,4 @@
-"""Sources with all small mistakes in them that a test should see, each behind its number (mutant.hpp)."""
+"""Generator of sources that contain all small mistakes a test should detect, each behind its number (mutant.hpp)."""
 
 from __future__ import annotations
 
@@ -33,18 +33,18 @@ FUNCTIONS = {
     CursorKind.CONVERSION_FUNCTION,
     CursorKind.LAMBDA_EXPR,
 }
-# Statements that are one by a macro.
+# Macros whose calls are statements.
 MACROS = (b"MOTIONRACK_CHECK(",)
 
 
 @dataclass
 class Edit:
-    """Text that comes in at a place of the file, instead of `length` bytes there."""
+    """Replacement of `length` bytes at an offset of the file by a text."""
 
     at: int
     length: int
     text: str
-    depth: float  # of two that begin at one place the outer comes first
+    depth: float  # order of edits at one offset, ascending
 
 
 @dataclass
@@ -69,7 +69,7 @@ class Mutation:
     edits: list[Edit] = field(default_factory=list)
     mutants: list[Mutant] = field(default_factory=list)
     negated: set[tuple[int, int]] = field(default_factory=set)
-    left_out: set[int] = field(default_factory=set)  # where statements begin
+    left_out: set[int] = field(default_factory=set)  # offsets of statements that have a mutant without them
 
     def mutant(self, cursor: Cursor, what: str) -> int:
         number = self.first + len(self.mutants)
@@ -101,7 +101,7 @@ class Mutation:
         return bool(start.file) and Path(start.file.name) == self.file and start.offset < end.offset
 
     def is_plain(self, cursor: Cursor) -> bool:
-        """It is written here, not by a macro: its first and last tokens lie where it lies."""
+        """Returns whether the code is written here, not by a macro: its tokens begin and end where its extent does."""
         tokens = list(cursor.get_tokens())
         if not tokens:
             return False
@@ -109,7 +109,7 @@ class Mutation:
         return first == cursor.extent.start.offset and last == cursor.extent.end.offset
 
     def operator(self, cursor: Cursor, left: Cursor, right: Cursor) -> tuple[str, int] | None:
-        """The operator between two operands, and where it begins."""
+        """Returns the operator between two operands and its offset; None if there is none."""
         for token in cursor.get_tokens():
             inside = left.extent.end.offset <= token.extent.start.offset < right.extent.start.offset
             if inside and token.kind == TokenKind.PUNCTUATION and token.spelling not in "()":
@@ -117,7 +117,7 @@ class Mutation:
         return None
 
     def continues(self, cursor: Cursor, operator: str) -> bool:
-        """`a && b` in `a && b && c`."""
+        """Returns whether the operand is a chain of the same operator, as `a && b` in `a && b && c`."""
         while cursor.kind == CursorKind.UNEXPOSED_EXPR and len(list(cursor.get_children())) == 1:
             cursor = next(cursor.get_children())
         children = list(cursor.get_children())
@@ -126,7 +126,7 @@ class Mutation:
         found = self.operator(cursor, *children)
         return found is not None and found[0] == operator
 
-    # ---- which mistakes
+    # ---- the mistakes
 
     def walk(self, cursor: Cursor, parent: Cursor | None = None, depth: int = 0, inside: bool = False) -> None:
         if cursor.kind in FUNCTIONS:
@@ -193,13 +193,13 @@ class Mutation:
         return (known or returns_nothing) and self.is_plain(cursor)
 
     def sets_truth(self, cursor: Cursor) -> bool:
-        """`known = true`: the opposite is mistake enough."""
+        """Returns whether it assigns a literal, as in `known = true`: the negated value is a mutant already."""
         children = list(cursor.get_children())
         return cursor.kind == CursorKind.BINARY_OPERATOR and children[1].kind == CursorKind.CXX_BOOL_LITERAL_EXPR
 
     def text_with_mutants(self, header: Path) -> bytes:
         out, at = bytearray(f'#include "{header}"\n#line 1\n'.encode()), 0
-        # At one place what ends comes before what begins; of what begins the outer first, of what ends the inner.
+        # At one offset, ends come before beginnings; the outer beginning and the inner end come first.
         for edit in sorted(self.edits, key=lambda one: (one.at, one.length == 0 and not is_end(one), one.depth)):
             out += self.text[at : edit.at] + edit.text.encode()
             at = edit.at + edit.length
@@ -211,7 +211,7 @@ def is_end(edit: Edit) -> bool:
 
 
 def head_of(function: Cursor) -> str:
-    """A function's words before its body."""
+    """Returns the tokens of a function before its body, separated by spaces."""
     words = []
     for token in function.get_tokens():
         if token.spelling == "{":
@@ -227,13 +227,13 @@ def is_constant(cursor: Cursor) -> bool:
 
 
 def condition_of(cursor: Cursor, children: list[Cursor]) -> Iterator[Cursor]:
-    """The condition among the parts of a statement: libclang does not say which part is which."""
+    """Yields the condition among the children of a statement, which libclang does not mark; all candidates of `for`."""
     if cursor.kind == CursorKind.DO_STMT:
         yield children[-1]
     elif cursor.kind in (CursorKind.WHILE_STMT, CursorKind.CONDITIONAL_OPERATOR):
         yield children[0]
     elif cursor.kind == CursorKind.IF_STMT:
-        if all(child.kind != CursorKind.VAR_DECL for child in children):  # one that is declared cannot be wrapped
+        if all(child.kind != CursorKind.VAR_DECL for child in children):  # a declared condition cannot be wrapped
             yield next(child for child in children if child.kind.is_expression())
     elif cursor.kind == CursorKind.FOR_STMT:
         for child in children[:-1]:
@@ -264,7 +264,7 @@ def is_statement_of(cursor: Cursor, parent: Cursor) -> bool:
 
 
 def mutate(file: Path, source: Path, flags: list[str], first: int) -> Mutation:
-    """All mutants of one file, as it is read when `source` is compiled; `first` is the number of the first."""
+    """Returns all mutants of `file`, parsed as when `source` is compiled; `first` is the number of the first mutant."""
     unit = Index.create().parse(str(source), flags)
     wrong = [str(one) for one in unit.diagnostics if one.severity >= 3]
     if wrong:

@@ -1,4 +1,4 @@
-"""CHANGELOG.md keeps its form: changelog_form.py ROOT
+"""Rule: CHANGELOG.md has the form of keepachangelog.com: changelog_form.py ROOT
 
 # Changes ─► ## [Unreleased] ─► ## [X.Y.Z] - YYYY-MM-DD, newest first
                             ─► ### Added, Changed, Fixed, Removed ─► one line an entry
@@ -19,7 +19,7 @@ HEADING = re.compile(r"## \[(\d+)\.(\d+)\.(\d+)\] - (\d{4}-\d{2}-\d{2})")
 
 
 class Form:
-    """Walks through the lines and keeps what is wrong."""
+    """Reader of the changelog that collects its violations."""
 
     def __init__(self, lines: list[str]) -> None:
         self.wrong: list[str] = []

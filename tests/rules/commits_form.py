@@ -1,10 +1,10 @@
-"""Commits keep the form of CONTRIBUTING.md: commits_form.py ROOT
+"""Rule: commit messages have the form of CONTRIBUTING.md: commits_form.py ROOT
 
     type(module): imperative subject        at most 72 characters, no full stop
                                             an empty line
-    why the behaviour is another            a body; feat, fix and perf need one
+    why the behaviour changes               a body; feat, fix and perf need one
 
-Read are the commits that have this script in their history, merges left out.
+Reads the commits that have this script in their history, except merges.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ TYPES = ["feat", "fix", "docs", "style", "refactor", "test", "build", "ci", "cho
 WITH_BODY = {"feat", "fix", "perf"}
 SUBJECT = re.compile(r"(?P<type>[a-z]+)\((?P<module>[a-z0-9][a-z0-9_./+-]*)\): (?P<said>\S.*)")
 TRAILER = re.compile(r"[A-Z][A-Za-z-]+: \S")
-# An imperative does not end so, but for these.
+# Endings that show an inflected word, and the imperatives that have them.
 INFLECTED = re.compile(r"[a-z]+(ed|ing)$")
 IMPERATIVE = {
     "bring",
@@ -40,7 +40,7 @@ IMPERATIVE = {
 
 
 def wrong_in(message: str) -> str:
-    """What a message does otherwise; nothing where it keeps the form."""
+    """Returns the first violation of a message; "" if it has the form."""
     lines = message.rstrip("\n").split("\n")
     subject = lines[0]
     if len(subject) > MAX_SUBJECT:
@@ -65,7 +65,7 @@ def wrong_in(message: str) -> str:
 
 
 def messages() -> list[tuple[str, str]]:
-    """Short hash and message of the commits since the rule."""
+    """Returns short hash and message of the commits since the rule was added."""
     if git(ROOT, "rev-parse", "HEAD") is None:
         skip("this tree is an archive or git cannot read it, so there are no commits to look at")
     if (git(ROOT, "rev-parse", "--is-shallow-repository") or "").strip() != "false":

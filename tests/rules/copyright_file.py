@@ -1,7 +1,7 @@
-"""packaging/copyright, which each Debian package has, holds every licence that asks for it: copyright_file.py ROOT
+"""Rule: packaging/copyright, part of each Debian package, has every licence that requires it: copyright_file.py ROOT
 
-Rows of docs/reference/third-party.md that are compiled in or bundled are named with their holders; shared libraries are
-named by their packages; each licence that is named has its text, and only those.
+It names the parts of docs/reference/third-party.md that are compiled in or bundled, and the packages of shared
+libraries; of bundled parts also a holder. It has the text of each licence that it names, and of no other.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def stanzas() -> list[dict[str, str]]:
 
 
 def form() -> list[str]:
-    """It is machine-readable, with a text for each licence."""
+    """Returns violations of the machine-readable format, and of the rule that each named licence has its text."""
     wrong = []
     first, *others = stanzas()
     if not first.get("Format", "").startswith("https://www.debian.org/doc/packaging-manuals/copyright-format/1.0"):
@@ -47,7 +47,7 @@ def has(name: str) -> bool:
 
 
 def holders() -> list[str]:
-    """`2022 Leon Sorokin` of each line `2022 Leon Sorokin (uplot)`."""
+    """Returns the holders without their parts: `2022 Leon Sorokin` for the line `2022 Leon Sorokin (uplot)`."""
     found = []
     for each in stanzas():
         if "Files" in each:
@@ -57,7 +57,7 @@ def holders() -> list[str]:
 
 
 def rows() -> list[str]:
-    """What the page of all parts says is inside."""
+    """Returns the parts and holders on the page of all parts that packaging/copyright does not name."""
     wrong = []
     for line in text_of(ROOT / PAGE).splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]

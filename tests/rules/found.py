@@ -1,7 +1,7 @@
-"""What the rules' scripts share: the files of the tree, and how they end.
+"""Shared parts of the rules' scripts: the files of the tree, and the exit codes.
 
-A rule that was broken prints each place and, last, the remedy; its script ends with 1.
-What cannot be asked here ends with 77.
+The script of a broken rule prints each place and then the remedy, and exits with 1. The script of a rule that cannot be
+checked here exits with 77.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ SKIPPED = 77
 
 
 def git(root: Path, *arguments: str) -> str | None:
-    """What git prints; nothing where it refuses, or where the tree is none of git's."""
+    """Returns the output of git; None if git fails or is not installed, or if the tree is not a git checkout."""
     if not (root / ".git").exists():
         return None
     try:
@@ -26,13 +26,13 @@ def git(root: Path, *arguments: str) -> str | None:
 
 
 def files_of(root: Path) -> list[Path]:
-    """The project's files, relative."""
+    """Returns the files of the project, sorted, with paths relative to the root."""
     listed = subprocess.run([Path(__file__).with_name("files"), root], check=True, capture_output=True, text=True)
     return sorted(Path(name) for name in listed.stdout.split("\0") if name)
 
 
 def text_of(path: Path) -> str:
-    """The file's text; empty if it is not a text file."""
+    """Returns the text of a file; "" if it is not UTF-8."""
     try:
         return path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
@@ -40,7 +40,7 @@ def text_of(path: Path) -> str:
 
 
 def version_of(root: Path) -> str:
-    """The project's, which the top CMakeLists.txt has."""
+    """Returns the version of the project from the top CMakeLists.txt; skips the rule if it has none."""
     for line in text_of(root / "CMakeLists.txt").splitlines():
         if line.startswith("project(motionrack VERSION "):
             return line.split()[2]
@@ -53,7 +53,7 @@ def skip(why: str) -> NoReturn:
 
 
 def finish(wrong: list[str], remedy: str, kept: str) -> NoReturn:
-    """Ends the script: with what was found and the remedy, or with a line that says what holds."""
+    """Ends the script: prints the violations and the remedy, exit code 1; without violations `kept`, exit code 0."""
     if not wrong:
         print(kept)
         sys.exit(0)

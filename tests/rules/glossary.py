@@ -4,8 +4,8 @@
     headers ──► names of types ──┬──► `types` of a word
                                  └──► plain_names.txt: plain or standard names that need no explanation
 
-A type of motionrack/**/*.hpp is public unless it is in a test or a card's folder, or nested. X is plain or explained
-where X of XSettings is. plain_names.txt only shrinks: --write removes names from it and adds none.
+A type of motionrack/**/*.hpp is public unless it is in a test or a card's folder, or nested. XSettings and XState need
+no entry where X is plain or explained. plain_names.txt only shrinks: --write removes names from it and adds none.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ Word = dict[str, Any]
 
 
 def declarations() -> dict[str, list[Path]]:
-    """Maps each type of the headers, tests' apart, to the headers that define it."""
+    """Maps each type of the headers, except those of tests, to the headers that define it."""
     out = defaultdict(list)
     for file in files_of(ROOT):
         if file.suffix == ".hpp" and file.parts[0] == "motionrack" and "test" not in file.parts:
@@ -77,7 +77,7 @@ def public_headers(name: str) -> list[Path]:
 
 
 def headers_of(one: str) -> list[Path]:
-    """The headers of a type: NAME, or FOLDER/NAME where several have one name."""
+    """Returns the headers of a type: NAME, or FOLDER/NAME if several types have the name."""
     folder, _, name = one.rpartition("/")
     if folder:
         return [file for file in TYPES.get(name, []) if f"/{folder}/" in f"/{file.parent}/"]
@@ -85,7 +85,7 @@ def headers_of(one: str) -> list[Path]:
 
 
 def problems(one: Word) -> Iterator[str]:
-    """Mistakes of an entry, each with its remedy."""
+    """Yields the mistakes of an entry, each with its remedy."""
     word = one.get("word", "an entry without `word`")
     for key in sorted(set(one) - KEYS):
         yield f"{word}: the key {key!r} is unknown; write one of {', '.join(sorted(KEYS))}"
@@ -109,7 +109,7 @@ def problems(one: Word) -> Iterator[str]:
 
 
 def order(subjects: list[Any]) -> Iterator[str]:
-    """Words that stand twice, or not in the order of the alphabet."""
+    """Yields the words that occur twice or are not in alphabetical order."""
     seen: set[str] = set()
     for subject in subjects:
         words = [str(one.get("word", "")).casefold() for one in subject["word"]]
@@ -124,14 +124,14 @@ def order(subjects: list[Any]) -> Iterator[str]:
 
 
 def plain_names() -> tuple[int, list[str]]:
-    """plain_names.txt: how many there may be, and the names."""
+    """Returns the limit in the first line of plain_names.txt, and its names."""
     head, _, rest = text_of(ROOT / PLAIN).partition("\n")
     number = re.search(r"\d+", head)
     return int(number.group()) if number else 0, rest.split()
 
 
 def unexplained(names: set[str]) -> Iterator[str]:
-    """Public types whose names are not among these, nor XSettings with X among them."""
+    """Yields the public types whose names are not among these, except XSettings and XState with X among them."""
     for name in sorted(filter(public_headers, TYPES)):
         stems = [name.removesuffix(suffix) for suffix in SUFFIXES]
         if name not in names and not any(stem != name and stem in names for stem in stems):

@@ -1,7 +1,7 @@
 """Rule: tests/known_breaches.txt only shrinks: known_breaches.py ROOT
 
-Each version of the list, and the tree's after them, has no row that the version before did not have, and no larger
-factor. Each of its rows is read by a test, and says why.
+No version of the list, that of the tree included, has a row that the version before did not have, or a larger factor.
+A test reads each row, and each row has its reason.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Factors = dict[tuple[str, str], float]
 
 
 def factors_in(text: str) -> tuple[Factors, list[str]]:
-    """The factor of each runs and limit, and the lines that are none."""
+    """Returns the factor of each runs and limit, and a sentence for each invalid line."""
     out: Factors = {}
     wrong = []
     for line in text.splitlines():
@@ -38,7 +38,7 @@ def factors_in(text: str) -> tuple[Factors, list[str]]:
 
 
 def growth(before: Factors, after: Factors, version: str) -> list[str]:
-    """What a version has more than the one before."""
+    """Returns a sentence for each new row and each larger factor of a version."""
     out = []
     for (runs, limit), factor in after.items():
         known = before.get((runs, limit))
@@ -50,7 +50,7 @@ def growth(before: Factors, after: Factors, version: str) -> list[str]:
 
 
 def earlier_versions() -> list[tuple[str, Factors]]:
-    """Those that are committed, the oldest first; none in an archive."""
+    """Returns the committed versions, the oldest first; none in an archive."""
     commits = git(ROOT, "log", "--reverse", "--format=%h", "HEAD", "--", LIST) or ""
     out = []
     for commit in commits.split():

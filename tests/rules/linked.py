@@ -1,10 +1,10 @@
-"""No library that is under the GPL alone is linked into what is given away: linked.py ROOT FILE...
+"""Rule: the released files link no library that is under the GPL alone: linked.py ROOT FILE...
 
     ldd FILE ─► each .so ─► dpkg -S: its package ─► linked_licences.txt: its licence
-                                                  └► its copyright file: is a GPL in it? the list says whose
+                                                  └► its copyright file: for a GPL in it, the list has a reason
 
-FILE: the built program, the C libraries, the Python module. Libraries that lie beside them are the project's own.
-What a file asks for itself is also a row of docs/reference/third-party.md.
+FILE: the built program, the C libraries, the Python module. Libraries in their folders are the project's own.
+A library that a FILE needs directly also has a row in docs/reference/third-party.md.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ EXCEPTION = re.compile(r"exception", re.IGNORECASE)
 
 
 def libraries_of(file: Path) -> set[tuple[Path, str]]:
-    """Files that the loader takes, with the names by which they were asked for."""
+    """Returns the libraries that the loader finds for a file, each with the name by which it is requested."""
     printed = subprocess.run(["ldd", str(file)], capture_output=True, text=True)
     if printed.returncode != 0:
         skip(f"ldd cannot read {file}: {(printed.stderr or printed.stdout).strip()}")
@@ -58,7 +58,7 @@ def libraries_of(file: Path) -> set[tuple[Path, str]]:
 
 
 def asked_by(file: Path) -> set[str]:
-    """The names that the file itself asks the loader for."""
+    """Returns the names of the libraries that the file needs directly."""
     return set(
         re.findall(
             r"NEEDED\s+(\S+)", subprocess.run(["objdump", "-p", str(file)], capture_output=True, text=True).stdout
@@ -67,7 +67,7 @@ def asked_by(file: Path) -> set[str]:
 
 
 def packages_of(libraries: set[Path]) -> dict[Path, str]:
-    """The packages that the files came with; a package's list may have a file without /usr."""
+    """Returns the package of each file; the list of a package may have the file without /usr."""
     names = {name: file for file in libraries for name in (str(file), str(file).removeprefix("/usr"))}
     said = subprocess.run(["dpkg", "-S", *sorted(names)], capture_output=True, text=True).stdout
     lines = [line.rpartition(": ") for line in said.splitlines() if not line.startswith("diversion by ")]
@@ -75,7 +75,7 @@ def packages_of(libraries: set[Path]) -> dict[Path, str]:
 
 
 def gpl_alone(licence: str) -> bool:
-    """Whether each of the licences that one may choose from is or has a GPL without an exception."""
+    """Returns whether each alternative of a licence is, or contains, a GPL without an exception."""
 
     def bad(part: str) -> bool:
         return bool(GPL.search(part)) and not EXCEPTION.search(part)
@@ -87,7 +87,7 @@ def gpl_alone(licence: str) -> bool:
 
 
 def gpl_in(package: str) -> list[str]:
-    """What in the package's copyright file is under the GPL, beside what Debian packed it with."""
+    """Returns the parts under the GPL alone in the package's copyright file, without Debian's packaging."""
     text = Path(f"/usr/share/doc/{package}/copyright").read_text(encoding="utf-8", errors="replace")
     if not text.lstrip().lower().startswith("format"):
         plain = " ".join(text.split())

@@ -1,4 +1,4 @@
-"""What the scripts share that make pages of docs/ from tables: cells, links, and whether a page is up to date."""
+"""Shared parts of the scripts that make pages of docs/ from data files: cells, links, check for outdated pages."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from found import text_of
 
 
 def cell(text: object) -> str:
-    """Text as a cell of a table."""
+    """Returns a text as a cell of a Markdown table."""
     return " ".join(str(text).split()).replace("|", "\\|").replace("<", "&lt;")
 
 
 def link(path: Path | str, text: object) -> str:
-    """A link from a page two folders below the root to a file of the tree."""
+    """Returns a link from a page two folders below the root to a file of the tree."""
     return f"[{cell(text)}](../../{path})"
 
 

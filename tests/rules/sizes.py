@@ -1,16 +1,16 @@
 """Rule: functions have at most 60 lines, classes at most 40 member functions and 800 lines over all their files.
 
-Those that have more are in offenders.txt, which only shrinks: what is not in it must be small, and what is in it must
-have the number that is written there.
+Larger ones are in offenders.txt, which only shrinks: each entry must have the number that is written there, and all
+others must be within the limits.
 
-sizes.py            compares
-sizes.py --write    writes offenders.txt as the tree is
+sizes.py            compares the tree with offenders.txt
+sizes.py --write    writes offenders.txt from the tree
 
-Where things begin and end is told by Universal Ctags. Lines of a function are those from the line with its name to its
-last brace; the bodies of TEST, TEST_F, TEST_P and RC_GTEST_PROP are functions too, and so are lambdas outside of
-functions. Lines of a class are those of its braces and of its members that are defined elsewhere; its member functions
-are all that it declares, with constructors and operators. Not seen are the second branches of #if and what macros
-make; of functions whose head puzzles ctags (a few templates) there is no tag.
+Universal Ctags finds where functions and classes begin and end. The lines of a function are those from its name to its
+last brace; the bodies of TEST, TEST_F, TEST_P and RC_GTEST_PROP count as functions, and so do lambdas outside of
+functions. The lines of a class are those from its name to its last brace, and those of its members that are defined
+elsewhere. Its member functions are all that it declares, with constructors and operators. Not counted are the second
+branches of #if, code that macros make, and a few templates whose heads ctags cannot parse.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ Tag = dict[str, Any]
 
 
 class Size(NamedTuple):
-    """One thing that is too large."""
+    """A function or class that is too large."""
 
     kind: str
     path: str
@@ -49,12 +49,12 @@ class Size(NamedTuple):
     number: int
 
     def key(self) -> tuple[str, str, str]:
-        """What it is, whatever its size."""
+        """Returns its identity: all fields but the number."""
         return self[:3]
 
 
 def tags_of(paths: list[str]) -> list[Tag]:
-    """What ctags sees in these files."""
+    """Returns the tags that ctags finds in these files."""
     command = [
         "ctags",
         "--options=NONE",
@@ -75,12 +75,12 @@ def tags_of(paths: list[str]) -> list[Tag]:
 
 
 def whole_name(tag: Tag) -> str:
-    """With all its scopes; what is unnamed has a name that ctags gives it for its file."""
+    """Returns the name of a tag with all its scopes; ctags makes names for unnamed things, by file."""
     return f"{tag['scope']}::{tag['name']}" if tag.get("scope") else str(tag["name"])
 
 
 def shown(tag: Tag, namespaces: set[str]) -> str:
-    """The name without its namespaces."""
+    """Returns the name of a tag without its namespaces."""
     names = whole_name(tag).split("::")
     inside = [count for count in range(len(names)) if "::".join(names[:count]) in namespaces]
     names = names[max(inside, default=0) :]
@@ -88,12 +88,12 @@ def shown(tag: Tag, namespaces: set[str]) -> str:
 
 
 def lines_of(tag: Tag) -> int:
-    """From the line with the name to the last one."""
+    """Returns the number of lines from the name to the end."""
     return int(tag["end"]) - int(tag["line"]) + 1
 
 
 def class_of(member: Tag, classes: list[Tag]) -> Tag | None:
-    """Of classes with one name, the one that a member belongs to: that of its file, else of its folder."""
+    """Returns the class of a member, of classes with one name: that in its file, else in its folder, else the first."""
     folder = member["path"].rpartition("/")[0]
     near = (
         [one for one in classes if one["path"] == member["path"]]
@@ -104,7 +104,7 @@ def class_of(member: Tag, classes: list[Tag]) -> Tag | None:
 
 
 def sizes_of_classes(tags: list[Tag]) -> list[tuple[Tag, int, int]]:
-    """Each class with the number of its member functions and of its lines."""
+    """Returns each class with the numbers of its member functions and of its lines."""
     named: defaultdict[str, list[Tag]] = defaultdict(list)
     for tag in tags:
         if tag["kind"] in ("class", "struct"):
@@ -130,7 +130,7 @@ def sizes_of_classes(tags: list[Tag]) -> list[tuple[Tag, int, int]]:
 
 
 def offenders() -> list[Size]:
-    """All that is too large, in the order of the list."""
+    """Returns everything that is too large, in the order of offenders.txt."""
     tags = [
         tag for tag in tags_of([path for path in tree.files() if tree.language(path) in ("c", "c++")]) if "end" in tag
     ]
@@ -154,7 +154,7 @@ def offenders() -> list[Size]:
 
 
 def listed() -> dict[tuple[str, str, str], int]:
-    """What offenders.txt allows."""
+    """Returns the numbers that offenders.txt allows."""
     out = {}
     for line in LIST.read_text(encoding="utf-8").splitlines():
         if line and not line.startswith("#"):
@@ -171,7 +171,7 @@ LIMITS = {
 
 
 def complaints(allowed: dict[tuple[str, str, str], int], found: list[Size]) -> list[str]:
-    """A sentence with its remedy for each difference."""
+    """Returns a sentence with its remedy for each difference from offenders.txt."""
     out = []
     for size in found:
         what, before = f"{size.path}: {size.name} has {size.number} ({size.kind})", allowed.get(size.key())

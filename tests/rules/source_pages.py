@@ -48,7 +48,7 @@ TESTS = cpp_tests()
 
 
 def test_file(test: str) -> Path | None:
-    """The file of a test: Suite.Name, path::function or path."""
+    """Returns the file of a test, which is Suite.Name, path::function or path; None if it does not exist."""
     if test in TESTS:
         return TESTS[test]
     path, _, function = test.partition("::")
@@ -99,7 +99,7 @@ def page(name: str, source: dict[str, Any], statements: list[Statement]) -> str:
 
 
 def overview(sources: dict[str, tuple[dict[str, Any], list[Statement]]]) -> str:
-    """The table of docs/sources/README.md."""
+    """Returns the table of docs/sources/README.md."""
     lines = ["| card | source | statements |", "|---|---|---|"]
     for name, (source, statements) in sources.items():
         summary = f"[{len(statements)}]({name}.md): {counts(statements)}"

@@ -1,7 +1,7 @@
 """Rule: text is UTF-8 with LF, ends with a line end, and has no tabs and no blanks at ends of lines (.editorconfig).
 
-text_form.py          tells what is not so
-text_form.py --fix    mends it, but for tabs and what is no UTF-8: those need an eye
+text_form.py          lists the violations
+text_form.py --fix    corrects them, except tabs and files that are not UTF-8
 """
 
 import sys
@@ -9,13 +9,13 @@ from pathlib import Path
 
 import tree
 
-# Inputs of tests mean what their bytes are.
+# Inputs of tests, whose exact bytes matter.
 EXEMPT = ("tests/fuzz/corpus/", "tests/golden/")
 WITH_TABS = {"Makefile"}
 
 
 def flaws(path: str, text: str) -> list[str]:
-    """What is wrong with the form of a text."""
+    """Returns the violations in a text."""
     out = []
     if "\r" in text:
         out.append(f"{path}: has carriage returns; lines end with LF")
@@ -30,7 +30,7 @@ def flaws(path: str, text: str) -> list[str]:
 
 
 def mended(text: str) -> str:
-    """The text with LF, no blanks at the ends of lines and a line end at its end."""
+    """Returns the text with LF, no blanks at the ends of lines and a line end at its end."""
     lines = [line.rstrip(" \t\r") for line in text.replace("\r\n", "\n").split("\n")]
     whole = "\n".join(lines)
     return whole if not whole or whole.endswith("\n") else whole + "\n"

@@ -1,7 +1,7 @@
-"""docs/reference/third-party.md has every part of others: third_party.py ROOT
+"""Rule: docs/reference/third-party.md has every third-party part: third_party.py ROOT
 
-CMake's packages and modules, the lists of Debian packages, the page's dependencies, what C++ includes and Python
-imports. Versions begin as those that are installed do.
+Parts are the packages and modules of CMake, the listed Debian packages, the dependencies of the operator panel, the
+headers that C++ includes and the modules that Python imports. The installed version begins with the one on the page.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ ROOT = Path(sys.argv[1])
 PAGE = "docs/reference/third-party.md"
 FILES = files_of(ROOT)
 HOW = {"dynamic", "headers", "bundled", "loaded", "tool"}
-MADE = {"sample.h", "rtc5sim_cards.h"}  # by idlc and by CMake, in the build folder
+MADE = {"sample.h", "rtc5sim_cards.h"}  # made by idlc and CMake in the build folder
 # Headers that need no row on the page: those of Linux and POSIX in these folders, the listed ones of C, POSIX and the
 # compiler, and those of C++, whose names have neither a folder nor an ending.
 SYSTEM = re.compile(
@@ -29,7 +29,7 @@ SYSTEM = re.compile(
 
 
 class Page:
-    """The rows of all its tables: names in `code`, cells by the heading of their column."""
+    """Rows of all tables on the page, cells by the heading of their column; names are in backquotes."""
 
     def __init__(self) -> None:
         self.rows: list[dict[str, str]] = []
@@ -55,7 +55,7 @@ class Page:
 
 
 def cmake_names() -> set[str]:
-    """What CMake looks for, in the project's own files."""
+    """Returns the packages and modules that the project's own CMake files look for."""
     text = text_of(ROOT / "cmake/dependencies.cmake")
     names = set()
     for variable in ("public_packages", "private_packages", "private_modules", "nats_module", "hdf5_names"):
@@ -75,7 +75,7 @@ def cmake_names() -> set[str]:
 
 
 def debian_names() -> set[str]:
-    """The packages that cmake/setup.sh lists and that scripts name themselves."""
+    """Returns the packages that cmake/setup.sh lists or that scripts pass to need_packages."""
     lists = re.findall(r"^\w+_packages=\(([^)]*)\)", text_of(ROOT / "cmake/setup.sh"), re.MULTILINE)
     for path in FILES:
         if path.suffix in ("", ".sh") and "need_packages" in (text := text_of(ROOT / path)):
@@ -136,7 +136,7 @@ def wrong_rows(page: Page) -> list[str]:
 
 
 def installed(packages: set[str]) -> dict[str, str]:
-    """The upstream versions of those Debian packages that are installed; none where this is no Debian."""
+    """Returns the versions, without epoch, of the Debian packages that are installed; empty on other systems."""
     command = ["dpkg-query", "-W", "-f=${Package} ${Version} ${db:Status-Status}\\n", *sorted(packages)]
     try:
         said = subprocess.run(command, capture_output=True, text=True).stdout

@@ -1,4 +1,4 @@
-"""The files of the tree that were written by hand, and which language each is in."""
+"""Files of the tree, and the language of each."""
 
 import subprocess
 from pathlib import Path
@@ -19,13 +19,13 @@ _BY_SUFFIX = {
 
 
 def files() -> list[str]:
-    """Paths below ROOT: those of the checkout, or of an unpacked archive."""
+    """Returns the paths below ROOT: those of the checkout, or of an unpacked archive."""
     listed = subprocess.run([HERE / "files", ROOT], capture_output=True, check=True).stdout.decode("utf-8")
     return sorted({path for path in listed.split("\0") if path})
 
 
 def language(path: str) -> str:
-    """One of c++, c, cmake, python, shell, markdown, or "". Scripts without a suffix tell in their first line."""
+    """Returns c++, c, cmake, python, shell, markdown or ""; the first line decides for scripts without a suffix."""
     name = Path(path).name
     if name == "CMakeLists.txt":
         return "cmake"
@@ -40,7 +40,7 @@ def language(path: str) -> str:
 
 
 def text(path: str) -> str | None:
-    """The content of the file; None if it is not UTF-8 text."""
+    """Returns the content of a file; None if it is not UTF-8 text."""
     data = (ROOT / path).read_bytes()
     if b"\0" in data:
         return None

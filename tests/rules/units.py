@@ -1,4 +1,4 @@
-"""The product's sources as the compiler takes them: units of a compile database, and each source alone."""
+"""Compilation units of the product: those of a compile database, and single sources with the flags of their units."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ PRODUCT = re.compile(r"(motionrack|python/src)/(?!(.*/)?test/).*\.cpp$")
 
 
 class Unit(NamedTuple):
-    """What the compiler takes at once: a source, or a file of a unity build that includes some."""
+    """Compilation unit: a source, or a file of a unity build that includes several sources."""
 
     file: Path
     command: list[str]
     sources: list[str]  # of the product, relative to ROOT
 
     def flags(self) -> list[str]:
-        """Of the compiler, without source and output."""
+        """Returns the flags of the compiler, without source and output."""
         at = self.command.index("-o")
         return [word for word in self.command[1:at] + self.command[at + 2 :] if word not in ("-c", str(self.file))]
 
 
 def relative(path: Path) -> str:
-    """As git names it; an absolute path where it is not of this tree."""
+    """Returns the path as git names it; unchanged if it is outside of the tree."""
     return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
 
 
 def units_of(build: Path) -> list[Unit]:
-    """What the compile database has of the product."""
+    """Returns the units of the compile database that have sources of the product."""
     out = []
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         file = Path(entry["directory"], entry["file"])
@@ -49,7 +49,7 @@ def units_of(build: Path) -> list[Unit]:
 
 
 def configure(build: Path) -> None:
-    """A unity build of the product, of which only the made sources are built."""
+    """Configures a unity build of the product and builds only the generated sources."""
     quiet = {"stdout": subprocess.DEVNULL, "check": True}
     command = ["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_UNITY_BUILD=ON", "-DMOTIONRACK_TESTS=OFF"]
     subprocess.run(command, **quiet)  # type: ignore[call-overload]
@@ -64,7 +64,7 @@ def configure(build: Path) -> None:
 
 
 def alone(units: list[Unit], sources: Iterable[str]) -> list[Unit]:
-    """The sources one by one, each with the flags of its target."""
+    """Returns each source as a unit of its own, with the flags of its target."""
     by_source = {source: unit for unit in units for source in unit.sources}
     out = []
     for source in sources:

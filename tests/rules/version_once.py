@@ -1,7 +1,7 @@
-"""The version stands in the top CMakeLists.txt and nowhere else: version_once.py ROOT [PROGRAM]
+"""Rule: only the top CMakeLists.txt has the version of the project: version_once.py ROOT [PROGRAM]
 
-Everything else takes it from there, or has none. Releases are told in CHANGELOG.md; results of measurements say what
-was measured.
+Everything else takes it from there or has none. Exceptions are CHANGELOG.md, which lists the releases, and records of
+one version, such as results of measurements.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from found import files_of, finish, text_of, version_of
 
 ROOT = Path(sys.argv[1])
 VERSION = version_of(ROOT)
-# Where a version of this project may stand as a number, and lists of other projects' versions.
+# Files that may have a version of this project as a number, and files with the versions of other projects.
 RECORDS = {
     "CMakeLists.txt",
     "CHANGELOG.md",
@@ -33,7 +33,7 @@ def releases() -> list[str]:
 
 
 def numbers() -> list[str]:
-    """Places with the number of this version, or of one that was released."""
+    """Returns the places that have the number of this version or of a release, or ask CMake for another version."""
     number = re.compile(r"(?<![\d.])(" + "|".join(re.escape(each) for each in {VERSION, *releases()}) + r")(?!\.?\d)")
     asked = re.compile(r"find_package\(motionrack (\d[\d.]*)")
     wrong = []
@@ -49,7 +49,7 @@ def numbers() -> list[str]:
 
 
 def others() -> list[str]:
-    """Files whose form has a version of its own."""
+    """Returns wrong versions in package.json, pyproject.toml, CHANGELOG.md and the output of PROGRAM."""
     wrong = []
     page = json.loads(text_of(ROOT / "hmi/package.json")).get("version")
     if page is not None:

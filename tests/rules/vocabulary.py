@@ -1,7 +1,7 @@
-"""Rule: the private words that vocabulary counts get fewer, and never more: the limits of vocabulary.txt only fall.
+"""Rule: the words that COUNTS rejects get fewer, never more: the limits in vocabulary.txt only fall.
 
 vocabulary.py SOURCE            compares each count with its limit
-vocabulary.py SOURCE --write    lowers the limits to what the tree has
+vocabulary.py SOURCE --write    lowers the limits to the counts of the tree
 """
 
 import re
@@ -50,7 +50,7 @@ TYPE = re.compile(r"(?:struct|class|enum class) ([A-Z][A-Za-z]+)(?: final)?(?: :
 
 
 def count(name: str, files: dict[str, str]) -> int:
-    """How often the files have the words of a count."""
+    """Returns the number of occurrences in the files of the words of a count."""
     where, what, _ = COUNTS[name]
     texts = [text for path, text in files.items() if re.match(where, path)]
     if name == "types-of-one-name":
@@ -62,7 +62,7 @@ def count(name: str, files: dict[str, str]) -> int:
 
 def main() -> int:
     limits = {name: int(number) for number, name in (line.split() for line in LIMITS.read_text().splitlines())}
-    # Without the tests.
+    # Without the tests of modules.
     files = {path: tree.text(path) or "" for path in tree.files() if "/test/" not in path}
     found = {name: count(name, files) for name in COUNTS}
     if "--write" in sys.argv:

@@ -1,5 +1,5 @@
-"""bCNC, on a virtual screen, streams a program over TCP or over the pseudo-terminal;
-the path is that of `motionrack run`.
+"""Test with bCNC on a virtual screen: it streams a program over TCP or the pseudo-terminal,
+and the path is that of `motionrack run`.
 
 python3 bcnc.py MOTIONRACK tcp|pty
 """
@@ -21,7 +21,7 @@ def main(motionrack, way):
     with Served(motionrack) as served:
         with open(os.path.join(served.folder, ".bCNC"), "w") as file:
             file.write(SETTINGS.format(port=f"socket://127.0.0.1:{served.port}" if way == "tcp" else served.link))
-        # Debian's own Python, which has what bCNC needs.
+        # Debian's own Python, which has the modules of bCNC.
         environment = dict(os.environ, HOME=served.folder, PATH="/usr/bin:/bin")
         for attempt in range(3):
             if stream(served, way, environment):
@@ -31,8 +31,8 @@ def main(motionrack, way):
 
 
 def stream(served, way, environment):
-    """False: bCNC was up, but did not run. It asks only once whether the controller is there,
-    and on a busy computer that can be too early."""
+    """Streams the program and compares the paths. Returns False if bCNC does not connect or does not start it:
+    bCNC looks only once for the controller, which can be too early on a busy computer."""
     log = open(os.path.join(served.folder, "bcnc.log"), "w+")
     sender = subprocess.Popen(
         ["xvfb-run", "-a", "bCNC", "--run", served.part],
@@ -48,7 +48,7 @@ def stream(served, way, environment):
         onlooker = Onlooker(served.port, must_be_second=way == "tcp")
         if not onlooker.look(40, lambda o: "Run" in o.states()):
             return False
-        # When the job is done bCNC holds, resets and asks for the offsets; over the terminal only the machine is seen.
+        # After the job bCNC holds, resets and requests the offsets. With the terminal the test sees only the machine.
         done = (
             (lambda o: o.stands_at(END) and any(line.startswith("[G54:") for line in o.lines))
             if way == "tcp"

@@ -1,7 +1,7 @@
-"""cncjs opens the pseudo-terminal and does what its users do with it;
+"""Test with cncjs on the pseudo-terminal, with the actions of its users;
 the path of the program is that of `motionrack run`.
 
-python3 cncjs.py MOTIONRACK FOLDER        FOLDER: where npm puts cncjs, once
+python3 cncjs.py MOTIONRACK FOLDER        FOLDER: where npm installs cncjs, once
 """
 import json
 import os
@@ -62,8 +62,8 @@ def wait_for_port(port, seconds):
 
 
 def program_of(onlooker):
-    """The places between homing and the jog, from the program's first corner on:
-    it begins where homing has left the axes."""
+    """Returns the positions between homing and the jog, from the program's first corner on:
+    the program starts where homing has left the axes."""
     states = [state for state, _ in onlooker.seen]
     places = onlooker.places(states.index("Run"))[: states.index("Jog") - states.index("Run")]
     first = next(i for i, place in enumerate(places) if near_first(place))

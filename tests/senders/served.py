@@ -1,4 +1,4 @@
-"""A served rack, who looks on at its Grbl port, and how paths are compared: what the tests with real senders share."""
+"""Shared parts of the tests with real senders: a served rack, an observer at its Grbl port, comparison of paths."""
 import csv
 import os
 import re
@@ -40,12 +40,12 @@ def fail(sentence):
 
 
 def near_first(place):
-    """On the way down to the work at the program's first corner."""
+    """Returns whether a position is at the program's first corner in X and Y, with Z above 2 mm."""
     return place[2] > 2 and max(abs(place[0] - FIRST[0]), abs(place[1] - FIRST[1])) < 0.1
 
 
 class Served:
-    """`motionrack serve` on a rack of three axes, in a folder of its own; ends with the block."""
+    """Process `motionrack serve` with a rack of three axes, in a temporary folder; ends with the `with` block."""
 
     def __init__(self, program, homes=False):
         self.folder = tempfile.mkdtemp(prefix="motionrack-senders-")
@@ -94,7 +94,7 @@ class Served:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def driven_by_run(self, from_first_corner=False):
-        """Where `motionrack run` really was, every millisecond; or the part of it from its first corner on."""
+        """Returns the true positions of `motionrack run`, every millisecond; or only those from the first corner on."""
         table = os.path.join(self.folder, "run.csv")
         subprocess.run(
             [self.motionrack, "run", self.part, "--rack", self.rack, "--csv", table, "--no-report", "-q"],
@@ -107,8 +107,8 @@ class Served:
 
 
 def sender_comes(port, patience=60):
-    """Waits until somebody is connected to the port. Trying to connect would take the sender's place,
-    so the kernel is asked."""
+    """Waits until a client is connected to the port; returns False after `patience` s. Asks the kernel,
+    as a connection of its own would take the sender's place."""
     until = time.time() + patience
     while time.time() < until:
         with open("/proc/net/tcp") as file:
@@ -120,7 +120,7 @@ def sender_comes(port, patience=60):
 
 
 class Onlooker:
-    """Connects beside the sender; asks for the status all the time."""
+    """Observer that connects beside the sender and requests the status continuously."""
 
     def __init__(self, port, must_be_second=True):
         self.socket = socket.create_connection(("127.0.0.1", port))
@@ -130,10 +130,10 @@ class Onlooker:
             fail(f"a sender was connected, and yet a second one was taken as the first: {first!r}")
         self.socket.settimeout(0.02)
         self.rest = ""
-        self.seen, self.lines = [], []  # (state, place), whenever one of them was another
+        self.seen, self.lines = [], []  # (state, position) at each change; all other lines
 
     def look(self, seconds, done):
-        """Until `done(self)`; what was seen is kept."""
+        """Observes until `done(self)`; returns False after `seconds`. Keeps all that it observed."""
         until = time.time() + seconds
         while time.time() < until:
             self.socket.sendall(b"?")
@@ -173,7 +173,7 @@ class Onlooker:
 
 
 def distance_to_path(place, path):
-    """From a place to a polyline, and where on it (number of its first corner)."""
+    """Returns the distance from a position to a polyline, and the index of the nearest segment."""
     best = (1e9, 0)
     for i in range(len(path) - 1):
         a, b = path[i], path[i + 1]
@@ -194,7 +194,7 @@ def thin(path, least):
 
 
 def compare(seen, driven):
-    """Every place that was seen is on the path of `motionrack run`, and every part of that path was seen."""
+    """Fails unless every observed position is on the path of `motionrack run`, and every part of it was observed."""
     fine = thin(driven, 0.05)
     worst = max(distance_to_path(place, fine)[0] for place in seen)
     if worst > 0.05:

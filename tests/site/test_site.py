@@ -1,4 +1,4 @@
-"""How pages become a site, without the programs that build it: lists, links, navigation, and the check of a site."""
+"""Tests of the site's generator without mkdocs and doxygen: lists, links, navigation, reference, search, checks."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ HEADERS = {"motionrack/sim/kernel.hpp": "reference/headers/sim.md#kernelhpp"}
 
 
 def leaves(nav: object) -> list[str]:
-    """All pages of a navigation."""
+    """Returns all pages of a navigation."""
     if isinstance(nav, dict):
         return [page for each in nav.values() for page in leaves(each)]
     if isinstance(nav, list):
