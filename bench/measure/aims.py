@@ -1,15 +1,15 @@
-"""What the product is to reach, and whether it did in a run."""
+"""Performance aims of the product, and the verdict on each from the results of a run."""
 from typing import Callable, NamedTuple
 
-#: Of ./run: a build into an empty folder on two cores, its CPU time, and a start with nothing to build.
+#: Limits of ./run, s: a build into an empty folder on two cores, its CPU time, and a start with nothing to build.
 COLD_BUILD_S, COLD_BUILD_CPU_S, SECOND_START_S = 240, 480, 1
 
 
 class Aim(NamedTuple):
     says: str
-    value: Callable[[dict], float]  # of the results; a KeyError: not measured
+    value: Callable[[dict], float]  # reads it from the results; raises what verdicts() catches if it was not measured
     limit: float
-    form: str  # of the value
+    form: str  # format of the value
     at_most: bool = False
 
 
@@ -39,7 +39,7 @@ def _late(results: dict) -> float:
 
 
 def _cold_build(results: dict) -> float:
-    """Of a machine with two cores: on more of them the limit says nothing."""
+    """Returns the wall time of a build. Raises KeyError unless the machine has two cores, for which the limit holds."""
     build = results["build"]
     if build["machine"]["cores"] != 2:
         raise KeyError("cores")
@@ -47,7 +47,7 @@ def _cold_build(results: dict) -> float:
 
 
 def _widest(kind: str, size: int, counter: str) -> Callable[[dict], float]:
-    """Of the widest kernels that the CPU has."""
+    """Returns a function that finds the maximum of a counter over the kernels of one kind and size."""
     return lambda results: max(
         row[counter]
         for name, row in results["benches"]["decode"].items()
@@ -135,7 +135,7 @@ AIMS = [
 
 
 def verdicts(results: dict) -> list[tuple[str, str, str, str]]:
-    """(aim, limit, measured, met or not) of those that the run measured."""
+    """Returns a row (aim, limit, measured value, verdict) for each aim that the run measured."""
     out = []
     for aim in AIMS:
         try:

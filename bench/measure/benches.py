@@ -1,5 +1,4 @@
-"""Runs the benchmark programs (Google Benchmark) and makes one number of each:
-the median of its repetitions, and how far they differ."""
+"""Runs of the benchmark programs (Google Benchmark): the median of each bench's repetitions, and their spread."""
 import json
 import re
 import statistics
@@ -11,7 +10,7 @@ from kinds import Bench, Program, bench_of, plain_name
 from running import Progress, Trouble, run, say
 from table import PROGRAMS
 
-#: Counters that are kept as they are, where a bench has them.
+#: Counters whose median goes into the results, if a bench has them.
 KEPT = (
     "ratio",
     "sim_s/s",
@@ -30,8 +29,8 @@ SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
 def nanoseconds_each(row: dict, counter: str) -> float:
-    """Nanoseconds of one thing, from a run as Google Benchmark writes it.
-    Raises Trouble if the run has no such counter."""
+    """Returns the time of one thing, ns, from a row of Google Benchmark's JSON.
+    Raises Trouble if the row does not have the counter."""
     if not counter:
         clock = row["real_time"] if "/real_time" in row["name"] else row["cpu_time"]
         return clock * SECONDS[row["time_unit"]] * 1e9
@@ -41,8 +40,8 @@ def nanoseconds_each(row: dict, counter: str) -> float:
 
 
 def summary_of(rows: list[dict], bench: Bench) -> dict:
-    """Median and, of more than one, spread (the greatest distance from the median,
-    as a part of it) of the repetitions of one bench."""
+    """Returns the median of a bench's repetitions and, of two or more, the spread:
+    the maximum distance from the median, as a fraction of it."""
     times = [nanoseconds_each(row, bench.unit.counter) for row in rows]
     median = statistics.median(times)
     out: dict = {"ns": median}
@@ -55,7 +54,7 @@ def summary_of(rows: list[dict], bench: Bench) -> dict:
 
 
 def read_results(text: str, program: Program) -> dict[str, dict]:
-    """The summaries of all benches in the JSON that a program wrote. Raises Trouble if one failed or is in no table."""
+    """Returns a summary of each bench in a program's JSON. Raises Trouble if a bench failed or is not in table.py."""
     rows: dict[str, list[dict]] = {}
     for row in json.loads(text)["benchmarks"]:
         if row.get("error_occurred"):
@@ -75,7 +74,7 @@ def read_results(text: str, program: Program) -> dict[str, dict]:
 
 
 def allowed(prefix: tuple[str, ...]) -> bool:
-    """Returns whether this machine can run programs behind this command prefix (tried with `true`)."""
+    """Returns whether this machine can run programs with this command prefix; tries it with the program `true`."""
     if not prefix:
         return True
     try:
@@ -85,7 +84,7 @@ def allowed(prefix: tuple[str, ...]) -> bool:
 
 
 def _follow(argv: list[str], expected: int) -> None:
-    """Runs a program and says which of its benches it has done."""
+    """Runs a program and shows its progress by bench. Raises Trouble if it fails."""
     with subprocess.Popen(argv, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
         done: set[str] = set()
         said = []
@@ -105,7 +104,7 @@ def names_of(binary: Path, pattern: str = ".") -> list[str]:
 
 
 def run_program(folder: Path, program: Program, quick: bool) -> dict[str, dict]:
-    """Runs one program. `quick`: each bench once and shortly, and no bench that lasts."""
+    """Runs one program; returns the summaries of its benches. `quick`: one short repetition, without `network`."""
     binary = folder / f"bench_{program.name}"
     pattern = "|".join(
         f"^{re.escape(bench.name)}(/|$)" for bench in program.benches if not (quick and bench.name == "network")
@@ -128,7 +127,7 @@ def run_program(folder: Path, program: Program, quick: bool) -> dict[str, dict]:
 
 
 def measure(folder: Path, programs: list[Program], progress: Progress, quick: bool) -> dict[str, dict]:
-    """All programs' benches: {section: {name: summary}}."""
+    """Runs the programs; returns {section: {name: summary}}. Leaves out programs whose prefix cannot be used."""
     out: dict[str, dict] = {}
     for program in programs:
         progress.step(
@@ -145,7 +144,7 @@ def measure(folder: Path, programs: list[Program], progress: Progress, quick: bo
 
 
 def chosen(names: list[str]) -> list[Program]:
-    """The programs of these names, or all. Raises Trouble for a name that there is not."""
+    """Returns the programs with these names, all if no name is given. Raises Trouble for an unknown name."""
     known = {program.name for program in PROGRAMS}
     for name in names:
         if name not in known:

@@ -1,5 +1,5 @@
-"""What building costs: the program built into an empty folder as ./run does it, each compilation of that, and a start
-with nothing to build.
+"""Cost of building: a build of the program into an empty folder as in ./run, each of its compilations, and a start with
+nothing to build.
 
     bash: ./run's own build_in ──► cmake, ninja ──► launcher.py COMPILER ... ──► a line for each compilation
 """
@@ -16,7 +16,7 @@ from running import Progress, Ran, Trouble, run
 
 LAUNCHER = Path(__file__).resolve().with_name("launcher.py")
 
-#: ccache would give back what another build compiled, and build_in would have it start the compilers, not the launcher.
+#: Hides ccache, which would return objects of other builds, and which build_in would use instead of the launcher.
 _WITHOUT_CCACHE = 'command() { [ "$*" != "-v ccache" ] && builtin command "$@"; }'
 
 
@@ -28,7 +28,7 @@ class Compilation(NamedTuple):
 
 
 def _short(path: Path, folder: Path) -> Path:
-    """As the tree has it; of a generated file, as the build folder has it."""
+    """Returns the path relative to the build folder (generated files) or to the tree; other paths unchanged."""
     for root in (folder, ROOT):
         if path.is_relative_to(root):
             return path.relative_to(root)
@@ -36,8 +36,8 @@ def _short(path: Path, folder: Path) -> Path:
 
 
 def named(source: Path, folder: Path) -> tuple[str, int]:
-    """What was compiled, and of how many sources it is. CMake's unity sources have names that say nothing:
-    those are named by the folder of the sources they include."""
+    """Returns the name of a compilation and the number of its sources. The names of CMake's unity sources are
+    meaningless; the common folder of the sources that they include replaces them."""
     unity = re.fullmatch(r"unity_(\d+)_(\w+\.\w+)", source.name)
     if not unity or source.parent.name != "Unity":
         return str(_short(source, folder)), 1
@@ -53,7 +53,7 @@ def named(source: Path, folder: Path) -> tuple[str, int]:
 
 
 def compilations(log: str, folder: Path) -> list[Compilation]:
-    """Those of the launcher's lines, the dearest first. Raises Trouble if there are none."""
+    """Returns the compilations in the launcher's log, the most expensive first. Raises Trouble if there are none."""
     out = []
     for line in log.splitlines():
         cpu_s, peak_bytes, source = line.split("\t")
@@ -65,7 +65,7 @@ def compilations(log: str, folder: Path) -> list[Compilation]:
 
 
 def build_of_run() -> str:
-    """The targets and options that ./run builds with, in its own words. Raises Trouble if it has no such line."""
+    """Returns the targets and options of the build in the script ./run. Raises Trouble if the line is missing."""
     found = re.search(r"^build_in build/release (.+)$", (ROOT / "run").read_text(encoding="utf-8"), re.M)
     if not found:
         raise Trouble("./run has no line 'build_in build/release ...'; correct bench/measure/build.py, which reads it.")
@@ -73,7 +73,7 @@ def build_of_run() -> str:
 
 
 def _bash(folder: Path, log: Path, before: str, after: str) -> Ran:
-    """./run with another folder: `before` are the commands ahead of its build, `after` those behind it."""
+    """Runs the build of ./run in another folder, between the shell commands `before` and `after`."""
     start = f"/usr/bin/python3;-I;-S;-B;{LAUNCHER}"
     script = "\n".join(
         [
@@ -91,7 +91,8 @@ def _bash(folder: Path, log: Path, before: str, after: str) -> Ran:
 
 
 def second_start(folder: Path, log: Path) -> float:
-    """Wall seconds of all that ./run does where nothing is to build: packages looked for, ninja asked, the program."""
+    """Returns the wall time, s, of a ./run with nothing to build: search for packages, ninja, start of the program.
+    Raises Trouble if ninja built something."""
     ran = _bash(folder, log, 'need_packages "${run_packages[@]}"', 'exec "$1/bin/motionrack" --version')
     if "building in" in ran.out and "no work to do" not in ran.out:
         raise Trouble(f"A second build, of an unchanged tree, found work to do:\n{ran.out[-2000:]}")
@@ -99,7 +100,7 @@ def second_start(folder: Path, log: Path) -> float:
 
 
 def measure(progress: Progress) -> dict[str, Any]:
-    """A cold build in a folder of its own, and five starts after it."""
+    """Measures a cold build in a folder of its own, and five starts after it."""
     progress.step("a build into an empty folder; about four minutes on two cores")
     load = os.getloadavg()[0]
     with tempfile.TemporaryDirectory(prefix="motionrack-build-") as name:

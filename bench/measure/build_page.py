@@ -1,4 +1,4 @@
-"""The page's section of what building costs."""
+"""The section of the page with the cost of building."""
 from typing import Any
 
 from aims import COLD_BUILD_CPU_S, COLD_BUILD_S, SECOND_START_S

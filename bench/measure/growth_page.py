@@ -1,4 +1,4 @@
-"""The page's tables of whole programs, and of what grows with what."""
+"""The tables of the page with whole programs, and with growth by lines, edges, clients and cards."""
 from kinds import belongs
 from table import PROGRAMS
 from text import bytes_of, count, digits, not_measured, paragraph, table, time_of

@@ -1,10 +1,10 @@
-"""Instructions of one thing, counted by callgrind: the same on a busy machine as on an idle one.
+"""Instructions per thing, counted by callgrind: the load of the machine does not change them.
 
     StartKeepRunning │ the loop ... PauseTiming │ ... │ ResumeTiming ... │ FinishKeepRunning
                      └ counted ───────────────────┘   └ counted ─────────┘
 
-Google Benchmark calls these four around what it times; callgrind writes its counters out, and clears them, where they
-are left or entered. What a bench does before its loop is so left out.
+Google Benchmark calls these four functions around the code that it times. callgrind dumps and clears its counters on
+their entry or exit, so that instructions before the loop are not counted.
 """
 import json
 import os
@@ -25,7 +25,7 @@ _SWITCHES = [
 
 
 def instructions_in(dumps: list[str]) -> int:
-    """Instructions of the last timed loop, from callgrind's dumps in their order. Raises Trouble if there is none."""
+    """Returns the instructions of the last timed loop in callgrind's dumps. Raises Trouble if there is none."""
     total, found = 0, False
     for dump in dumps:
         trigger = re.search(r"^desc: Trigger: (.*)$", dump, re.M)
@@ -42,13 +42,13 @@ def instructions_in(dumps: list[str]) -> int:
 
 
 def things_in(row: dict, counter: str) -> float:
-    """How many things a run did in all."""
+    """Returns the number of things that a run did in all."""
     seconds = row["cpu_time"] * SECONDS[row["time_unit"]] * row["iterations"]
     return row["iterations"] if not counter else seconds * 1e9 / nanoseconds_each(row, counter)
 
 
 def count(binary: Path, name: str, counter: str, quick: bool) -> float:
-    """Instructions of one thing of the bench `name`."""
+    """Returns the instructions per thing of the bench `name`."""
     with tempfile.TemporaryDirectory() as scratch:
         results = Path(scratch) / "results.json"
         dumps = Path(scratch) / "callgrind"
@@ -66,7 +66,7 @@ def count(binary: Path, name: str, counter: str, quick: bool) -> float:
             ],
             memory=False,
             env={**os.environ, "LD_BIND_NOW": "1"},
-        )  # a library's functions are not looked up inside the loop
+        )  # LD_BIND_NOW: resolves functions of libraries before the loop
         parts = sorted(Path(scratch).glob("callgrind.*"), key=lambda path: int(path.suffix[1:]))
         row = json.loads(results.read_text(encoding="utf-8"))["benchmarks"][0]
         return instructions_in([part.read_text(encoding="utf-8", errors="replace") for part in parts]) / things_in(
@@ -75,8 +75,8 @@ def count(binary: Path, name: str, counter: str, quick: bool) -> float:
 
 
 def measure(folder: Path, programs: list[Program], progress: Progress, quick: bool, results: dict[str, dict]) -> None:
-    """Adds "instructions" to the results of the benches that are counted;
-    of a quick run, to the first two of a program."""
+    """Adds "instructions" to the results of all counted benches;
+    in a quick run, to those of the first two of each program."""
     for program in programs:
         progress.step(f"instructions of bench_{program.name}")
         if program.prefix:

@@ -1,4 +1,4 @@
-"""Benches as such: what a program of them is made of, and whose a measured name is."""
+"""Types that describe benchmark programs, and the assignment of measured names to benches."""
 import re
 from pathlib import Path
 from typing import NamedTuple
@@ -7,8 +7,8 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 class Unit(NamedTuple):
-    """`thing`: one of it is what a bench's time is of. `counter`: counts it, as a rate ("pulses/s") or a time of one
-    ("each"); "": one call of the bench is one thing."""
+    """Unit of a bench. `thing`: the noun whose time is measured. `counter`: a rate of things ("pulses/s") or the time
+    of one ("each"); "": one call of the bench is one thing."""
 
     thing: str
     counter: str = ""
@@ -28,7 +28,7 @@ class Program(NamedTuple):
     text: str
     benches: list[Bench]
     prefix: tuple[str, ...] = ()
-    section: str = ""  # of the results; by default the program's name
+    section: str = ""  # key in the results; by default the program's name
 
     @property
     def key(self) -> str:
@@ -36,7 +36,7 @@ class Program(NamedTuple):
 
 
 def names_in_sources() -> dict[str, set[str]]:
-    """The benches that the sources declare, by program."""
+    """Returns the names of the benches that the sources declare, by program."""
     out: dict[str, set[str]] = {}
     for path in sorted((ROOT / "bench").glob("*_bench.cpp")):
         text = path.read_text(encoding="utf-8")
@@ -52,16 +52,16 @@ def names_in_sources() -> dict[str, set[str]]:
 
 
 def plain_name(name: str) -> str:
-    """A name as Google Benchmark prints it, without what only says how it was timed."""
+    """Returns a name that Google Benchmark prints, without the parts that only say how it was timed."""
     return re.sub(r"/(min_time:[\d.]+|real_time|process_time|repeats:\d+)", "", name)
 
 
 def belongs(measured: str, bench: Bench) -> bool:
-    """Whether a measured name is of this bench, with whatever arguments."""
+    """Returns whether a measured name is of this bench, with any arguments."""
     return measured == bench.name or measured.startswith(bench.name + "/")
 
 
 def bench_of(program: Program, measured: str) -> Bench | None:
-    """The bench with the longest name that a measured one is of."""
+    """Returns the bench of a measured name, the one with the longest name; None if there is none."""
     found = [bench for bench in program.benches if belongs(measured, bench)]
     return max(found, key=lambda bench: len(bench.name)) if found else None

@@ -1,5 +1,5 @@
-"""Starts a compiler for ninja and appends a line about it to the file that MOTIONRACK_COMPILATIONS names: CPU seconds,
-peak resident bytes, the source. Needs nothing but Python's core, as it is started once for each compilation:
+"""Compiler launcher for ninja: runs a compiler and appends a line to the file that MOTIONRACK_COMPILATIONS names, with
+CPU seconds, peak resident bytes and the source. Imports little, as it starts once for each compilation:
 
     launcher.py COMPILER ARGUMENTS...
 """
@@ -8,9 +8,9 @@ import sys
 
 
 def main(argv: list[str]) -> int:
-    """The compiler's exit code; one that failed, or that compiles nothing, leaves no line."""
+    """Returns the compiler's exit code. Writes no line if the compiler fails or is not called with -c."""
     pid = os.posix_spawnp(argv[0], argv, os.environ)
-    _, status, usage = os.wait4(pid, 0)  # with the compiler proper and the assembler, which the driver waited for
+    _, status, usage = os.wait4(pid, 0)  # includes the compiler proper and the assembler, for which the driver waited
     code = os.waitstatus_to_exitcode(status)
     log = os.environ.get("MOTIONRACK_COMPILATIONS")
     if log and code == 0 and "-c" in argv:

@@ -1,4 +1,4 @@
-"""The machine, the compiler and the peers that a page was made with."""
+"""Description of the machine, the compiler and the peers of a run."""
 import os
 import platform
 import re
@@ -26,12 +26,12 @@ def _from(path: str, pattern: str) -> str:
 
 
 def version_of(package: str) -> str:
-    """Upstream version of an installed Debian package; nothing if it is not there."""
+    """Returns the upstream version of a Debian package; "" if it is not installed."""
     return re.sub(r"^\d+:|[-+~].*$", "", _said("dpkg-query", "-W", "-f=${Version}", package))
 
 
 def machine(folder: Path) -> dict:
-    """CPU, cores, memory, kernel, system, compiler of the build in `folder`, versions of the peers, load and day."""
+    """Returns CPU, cores, memory, kernel, system, compiler of the build in `folder`, peer versions, load and date."""
     compiler = _from(str(folder / "CMakeCache.txt"), r"^CMAKE_CXX_COMPILER:\w+=(.*)$") or "c++"
     kilobytes = int(_from("/proc/meminfo", r"^MemTotal:\s+(\d+)") or 0)
     return {

@@ -1,4 +1,4 @@
-"""Measures everything and writes docs/reference/performance.md; started by bench/page, which builds what it needs."""
+"""Command line of bench/page, which builds the programs: measures everything, writes docs/reference/performance.md."""
 import argparse
 import json
 import sys
@@ -62,7 +62,7 @@ def options(argv: list[str]) -> argparse.Namespace:
 
 
 def tried(measuring: Callable, *how):
-    """What was measured, or {"missing": why not}: a long run is not lost for a part of it."""
+    """Returns the result of a measurement, or {"missing": reason} after Trouble: the run continues without it."""
     try:
         return measuring(*how)
     except Trouble as trouble:
@@ -71,7 +71,7 @@ def tried(measuring: Callable, *how):
 
 
 def measure(folder: Path, names: list[str], quick: bool) -> dict:
-    """All results of a run. `folder`: where the build is."""
+    """Measures all parts of a run and returns the results. `folder`: the build folder."""
     begin = time.monotonic()
     programs = benches.chosen(names)
     progress = Progress(2 * len(programs) + (0 if names else 8) + (0 if names or quick else 1))
@@ -107,12 +107,12 @@ def measure(folder: Path, names: list[str], quick: bool) -> dict:
 
 
 def with_build() -> dict:
-    """The stored results, of which only the build is measured anew."""
+    """Returns the stored results with a new measurement of the build."""
     return {**json.loads(STORED.read_text(encoding="utf-8")), "build": build.measure(Progress(1))}
 
 
 def measured(asked: argparse.Namespace, folder: Path) -> dict:
-    """What the options ask for. Raises Trouble if they ask for parts that are not measured together."""
+    """Measures the parts that the options name. Raises Trouble for parts that are not measured together."""
     if "build" not in asked.only:
         return rounded(measure(folder, asked.only, asked.quick))
     if asked.quick or asked.only != ["build"]:
@@ -123,7 +123,7 @@ def measured(asked: argparse.Namespace, folder: Path) -> dict:
 
 
 def rounded(value):
-    """Five significant digits: more would only make two runs look more different."""
+    """Rounds all floats to five significant digits: more would only add differences between two runs."""
     if isinstance(value, float):
         return float(f"{value:.5g}")
     if isinstance(value, dict):
@@ -132,7 +132,7 @@ def rounded(value):
 
 
 def stored_text(results: dict) -> str:
-    """The results as JSON, a bench or a compilation a line, so that two runs can be compared line by line."""
+    """Returns the results as JSON with one bench or compilation per line, so that two runs can be compared by line."""
     sections = ",\n".join(
         f'  "{section}": {{\n'
         + ",\n".join(f"   {json.dumps(name)}: {json.dumps(row)}" for name, row in rows.items())

@@ -1,4 +1,4 @@
-"""Writes the page from the results of a run."""
+"""The page docs/reference/performance.md, made from the results of a run."""
 from aims import verdicts
 from build_page import building
 from growth_page import growth, whole_programs
@@ -54,14 +54,14 @@ def _aims(results: dict) -> list[str]:
 
 
 def _compared(bench: Bench, row: dict, rows: dict[str, dict]) -> str:
-    """How many times as fast as its baseline."""
+    """Returns the ratio of a bench to its baseline as text; "" if it has none."""
     if bench.baseline and bench.baseline in rows:
         return f"{ratio(rows[bench.baseline]['ns'] / row['ns'])} `{bench.baseline}`"
     return ratio(row["ratio"]) if "ratio" in row else ""
 
 
 def _bench_rows(program: Program, measured: dict[str, dict]) -> list[tuple[str, ...]]:
-    """A row for each bench of the table, measured or not, with what it was measured with."""
+    """Returns a row for each measured name of a program, and for each bench that was not measured."""
     out: list[tuple[str, ...]] = []
     for bench in program.benches:
         names = [name for name in measured if bench_of(program, name) is bench]
@@ -83,7 +83,7 @@ def _bench_rows(program: Program, measured: dict[str, dict]) -> list[tuple[str, 
 
 
 def _below(program: Program, measured: dict[str, dict]) -> list[str]:
-    """What a few programs tell beside times: ages of frames, slowest blocks."""
+    """Returns the second table of programs that have one: ages of frames (dds), slowest blocks (curve)."""
     if program.name == "dds":
         rows = [
             (
@@ -126,7 +126,7 @@ def _program(program: Program, results: dict) -> list[str]:
 
 
 def page(results: dict) -> str:
-    """The page as Markdown."""
+    """Returns the page as Markdown."""
     lines = _head(results) + _aims(results) + peers(results) + whole_programs(results) + growth(results)
     lines += building(results)
     lines += ["", "## Every bench", "", "The programs are described in [bench/README.md](../../bench/README.md)."]

@@ -1,7 +1,7 @@
-"""Others on the same work in the same run: sigrok-cli, LinuxCNC's stepgen and encoder under halrun,
-LinuxCNC's interpreter.
+"""Measurements of other programs on the same work in the same run: sigrok-cli, LinuxCNC's stepgen and encoder under
+halrun, LinuxCNC's interpreter.
 
-(verilator is inside bench_axis and bench_grating.)
+(bench_axis and bench_grating measure verilator themselves.)
 """
 import os
 import re
@@ -14,7 +14,7 @@ from pathlib import Path
 from running import Progress, Trouble, best_of, run
 from whole import counts_decoded, passes, spiral
 
-#: Of the threads that LinuxCNC runs: the fast one makes and counts steps, the slow one sets speeds and looks.
+#: Settings of LinuxCNC. Its fast thread makes and counts steps, its slow one sets speeds and captures positions.
 BASE_NS, SLOW_NS, AXES, STEPS_A_SECOND, PERIODS = 40_000, 1_000_000, 4, 20_000, 50_000
 
 _HAL = """
@@ -49,12 +49,12 @@ setp stepgen.{n}.enable 1
 
 
 def missing(*programs: str) -> str:
-    """The first of these programs that is not installed, or nothing."""
+    """Returns the first of these programs that is not installed; "" if all are."""
     return next((program for program in programs if not shutil.which(program)), "")
 
 
 def hal_text(file: Path, periods: int) -> str:
-    """A HAL configuration in which stepgen's quadrature outputs turn the encoder counters of as many channels."""
+    """Returns a HAL configuration in which each stepgen's quadrature outputs drive one encoder counter."""
     return _HAL.format(
         base=BASE_NS,
         slow=SLOW_NS,
@@ -68,8 +68,8 @@ def hal_text(file: Path, periods: int) -> str:
 
 
 def clock_ghz() -> float:
-    """Ticks a nanosecond of the counter that LinuxCNC takes its times with (x86:
-    the TSC, whose rate the kernel tells by BogoMIPS)."""
+    """Returns the rate, ticks per ns, of the counter from which LinuxCNC takes its times: the TSC of x86, whose rate
+    follows from the kernel's BogoMIPS. Raises Trouble if that value is missing."""
     found = re.search(
         r"^bogomips\s*:\s*([\d.]+)", Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace"), re.M | re.I
     )
@@ -79,10 +79,11 @@ def clock_ghz() -> float:
 
 
 def read_periods(text: str) -> dict:
-    """Means, over the quickest nine tenths of the periods, of what halsampler wrote: ticks of make-pulses, of
-    update-counters, of the whole thread; and counts a period. The slowest tenth is where something else had the core.
+    """Returns means of the periods that halsampler wrote, without their first tenth: ticks of make-pulses, of
+    update-counters and of the whole thread, over the fastest nine tenths (in the others the core was interrupted), and
+    encoder counts a period, over all.
 
-    Raises Trouble if fewer than 1,000 periods came, or the encoder did not turn.
+    Raises Trouble if fewer than 1,000 periods are left, or the encoder did not turn.
     """
     rows = [
         [int(word) for word in line.split()[:4]]
@@ -100,13 +101,13 @@ def read_periods(text: str) -> dict:
 
 
 def linuxcnc_steps(scratch: Path, progress: Progress, quick: bool) -> dict:
-    """What a step of LinuxCNC's software step generator, and its counting, cost."""
+    """Measures the CPU time of a step of LinuxCNC's software step generator, and of counting it."""
     progress.step("LinuxCNC: stepgen and encoder under halrun")
     if missing("halrun"):
         return {"missing": "`halrun` (Debian: linuxcnc-uspace) is not there."}
     file, script, pipes = scratch / "periods.txt", scratch / "steps.hal", scratch / "pipes"
     script.write_text(hal_text(file, 5_000 if quick else PERIODS), encoding="ascii")
-    # HAL refuses to run as root; it takes the user that this variable names.
+    # HAL refuses to run as root unless this variable names another user.
     env = {
         **os.environ,
         "HOME": str(scratch),
@@ -137,7 +138,7 @@ def linuxcnc_steps(scratch: Path, progress: Progress, quick: bool) -> dict:
 
 
 def last_number(text: str) -> int:
-    """The last number that sigrok-cli told. Raises Trouble if it told none."""
+    """Returns the last count that sigrok-cli printed. Raises Trouble if it printed none."""
     found = re.findall(r": (-?\d+)\s*$", text, re.M)
     if not found:
         raise Trouble(f"sigrok-cli told no count:\n{text[-2000:]}")
@@ -145,7 +146,7 @@ def last_number(text: str) -> int:
 
 
 def sigrok(program: Path, scratch: Path, progress: Progress, quick: bool) -> dict:
-    """The same VCD file counted by sigrok-cli's graycode decoder and by motionrack decode."""
+    """Measures sigrok-cli's graycode decoder and motionrack decode on the same VCD file."""
     progress.step("sigrok-cli: graycode decoder")
     if missing("sigrok-cli"):
         return {"missing": "`sigrok-cli` is not there."}
@@ -173,14 +174,14 @@ def sigrok(program: Path, scratch: Path, progress: Progress, quick: bool) -> dic
         ["sigrok-cli", "-I", "vcd", "-i", str(waves), "-P", "graycode:d0=X_enc_a:d1=X_enc_b", "-A", "graycode=count"],
         cwd=scratch,
         codes=(0, -signal.SIGABRT),
-    )  # Debian's aborts when its Python ends, after it has told everything
+    )  # Debian's sigrok-cli aborts when its Python ends, after all of its output
     ours = best_of(1 if quick else 5, [str(program), "decode", str(waves), "-q"], cwd=scratch)
     counts = counts_decoded(ours.out)
     told = re.search(r"_enc_b\s+(-?\d+)", ours.out)
     if not told:
         raise Trouble(f"motionrack decode told no place of X:\n{ours.out[-2000:]}")
     end = int(told[1])
-    # sigrok tells each place when it is left.
+    # sigrok-cli prints a count when the encoder leaves it, so its last one may be one off.
     if abs(last_number(theirs.out) - end) > 1:
         raise Trouble(f"sigrok-cli counted {last_number(theirs.out)}, motionrack decode {end}.")
     return {
@@ -192,7 +193,7 @@ def sigrok(program: Path, scratch: Path, progress: Progress, quick: bool) -> dic
 
 
 def interpreter(program: Path, scratch: Path, progress: Progress, quick: bool) -> dict:
-    """The same program read into canonical calls by LinuxCNC's rs274 and by motionrack canon."""
+    """Measures LinuxCNC's rs274 and motionrack canon, which translate the same program into canonical calls."""
     progress.step("LinuxCNC: rs274")
     if missing("rs274"):
         return {"missing": "`rs274` (Debian: linuxcnc-uspace) is not there."}
@@ -202,7 +203,7 @@ def interpreter(program: Path, scratch: Path, progress: Progress, quick: bool) -
     times = 1 if quick else 3
     theirs = best_of(times, ["rs274", "-g", "-v", "x.var", str(file)], cwd=scratch, codes=(0, 1))
     ours = best_of(times, [str(program), "canon", "--numbered", str(file)], cwd=scratch)
-    # rs274 makes a call of the line with the feed alone, too.
+    # rs274 also prints a call for the line that only sets the feed rate; comparing the last `lines` calls skips it.
     moves = [re.findall(r"STRAIGHT_FEED(.*)", ran.out)[-lines:] for ran in (theirs, ours)]
     if moves[0] != moves[1] or len(moves[0]) < lines:
         raise Trouble(

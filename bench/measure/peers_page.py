@@ -1,4 +1,4 @@
-"""The page's tables of others on the same work, and what differs."""
+"""The tables of the page that compare other programs on the same work, with the differences in their tasks."""
 from text import bytes_of, count, not_measured, paragraph, ratio, table, time_of
 
 

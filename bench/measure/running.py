@@ -1,4 +1,4 @@
-"""Programs run and measured: wall time, CPU time, peak memory; and what tells the user how far it is."""
+"""Runs of programs with their wall time, CPU time and peak memory, and the display of progress."""
 import os
 import re
 import resource
@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 
 class Trouble(Exception):
-    """What could not be measured, in a sentence for the user."""
+    """Failure of a measurement; its text is a sentence for the user."""
 
 
 class Ran(NamedTuple):
@@ -26,7 +26,7 @@ def say(text: str) -> None:
 
 
 class Progress:
-    """Steps of known number: `step` says which, and how many are left."""
+    """Progress of a known number of steps: `step` prints the current one and how many are left."""
 
     def __init__(self, steps: int):
         self._steps, self._done, self._begin = steps, 0, time.monotonic()
@@ -38,7 +38,7 @@ class Progress:
 
     @staticmethod
     def within(text: str) -> None:
-        """One line that is written over, on a terminal."""
+        """Writes over one line of the terminal; prints nothing elsewhere."""
         if sys.stderr.isatty():
             print(f"\r\033[K  {text}", end="", file=sys.stderr, flush=True)
 
@@ -49,7 +49,7 @@ class Progress:
 
 
 def peak_of(pid: int) -> int:
-    """The peak resident memory of a running process so far, in bytes; 0 if it is gone."""
+    """Returns the peak resident memory of a running process so far, in bytes; 0 if it has ended."""
     try:
         found = re.search(
             r"VmHWM:\s+(\d+) kB", Path(f"/proc/{pid}/status").read_text(encoding="ascii", errors="replace")
@@ -68,11 +68,10 @@ def run(
     env: dict[str, str] | None = None,
     memory: bool = True,
 ) -> Ran:
-    """Runs a program to its end. Raises Trouble if it ends with another code than `codes` or takes longer than
-    `limit_s`.
+    """Runs a program to its end. Raises Trouble if its exit code is not in `codes` or it takes longer than `limit_s`.
 
-    The kernel's own count of the peak memory includes this Python before the program took its place, so that it is used
-    only where it is greater; smaller programs are looked at each 2 ms while they run (`memory`).
+    The kernel's peak memory of a child includes this Python process before exec, so it counts only above Python's own
+    peak; the memory of smaller programs is sampled every 2 ms while they run (`memory`).
     """
     begin = time.monotonic()
     with subprocess.Popen(
@@ -108,6 +107,6 @@ def run(
 
 
 def best_of(times: int, argv: list[str], **how) -> Ran:
-    """The run with the least CPU time, with the greatest peak memory of all."""
+    """Runs a program several times; returns the run with the least CPU time, with the highest peak memory of all."""
     runs = [run(argv, **how) for _ in range(times)]
     return min(runs, key=lambda ran: ran.cpu_s)._replace(peak_bytes=max(ran.peak_bytes for ran in runs))

@@ -1,7 +1,7 @@
-"""The benches: what each number means, what it is the time of, and what it is compared with.
+"""Table of the benches: the meaning of each, the thing whose time it measures, and its baseline.
 
-A bench is named as its program prints it, without arguments. `baseline` is another bench of the same program that does
-the same in another way; where a program compares by itself, its counter "ratio" is used.
+A bench has the name that its program prints, without arguments. `baseline`: another bench of the same program that does
+the same in another way; a program that compares by itself has the counter "ratio" instead.
 `counted`: a pattern of the names whose instructions are counted.
 """
 from kinds import Bench, Program, Unit
@@ -21,7 +21,7 @@ ITEM_BLOCK, BLOCK, ONE_PULSE = Unit("block", "items_per_second"), Unit("block", 
 EVENT, FRAME, CARD_FRAME = Unit("event", "each"), Unit("frame", "items_per_second"), Unit("frame of a card", "each")
 PLAN, CALL, RUN, MIB64 = Unit("plan"), Unit("call"), Unit("run"), Unit("64 MiB")
 
-#: Of `counted`: what depends on the time of day or needs minutes under valgrind.
+#: `counted` of benches that depend on real time or take minutes under valgrind.
 NEVER = ""
 
 _NETWORK = (

@@ -1,5 +1,5 @@
-"""The page of the benchmarks: every bench of the sources is on it, it is what its stored results say,
-and what others print is read rightly."""
+"""Tests of the performance page: it has every bench of the sources and agrees with its stored results;
+the output of other programs is parsed correctly."""
 import json
 import os
 import subprocess
@@ -43,7 +43,7 @@ def results_of(**sections) -> dict:
 
 
 def build_of(wall_s: float = 200.0, cores: int = 2) -> dict:
-    """A build of twelve compilations: module 0 is the dearest, module 11 takes the most memory."""
+    """Returns the results of twelve compilations: room_0 takes the most CPU time, room_11 the most memory."""
     return {
         "machine": {"cpu": "C", "cores": cores, "compiler": "c++ 12", "day": "2000-01-02", "version": "1", "load": 0.3},
         "ccache": False,

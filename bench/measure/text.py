@@ -1,4 +1,4 @@
-"""Numbers and tables as a page shows them: three digits, thousands with commas."""
+"""Formats of numbers and tables on the page: three digits, thousands with commas."""
 import re
 import textwrap
 from collections.abc import Sequence
@@ -9,7 +9,7 @@ _SCALES = ((1e9, "s"), (1e6, "ms"), (1e3, "us"), (1, "ns"))
 
 
 def digits(value: float) -> str:
-    """Three significant digits."""
+    """Returns a number with three significant digits."""
     if value == 0:
         return "0"
     size = abs(value)
@@ -23,7 +23,7 @@ def digits(value: float) -> str:
 
 
 def time_of(ns: float) -> str:
-    """Nanoseconds in the unit that suits them."""
+    """Returns a time in the largest unit that is not longer than it: s, ms, us or ns."""
     for scale, unit in _SCALES:
         if ns >= scale:
             return f"{digits(ns / scale)} {unit}"
@@ -43,19 +43,19 @@ def ratio(value: float) -> str:
 
 
 def not_measured(got: dict) -> str:
-    """Why a part of the page is empty, of its results."""
+    """Returns the sentence for a part of the page that is empty, with the reason from its results."""
     return "Not measured in this run" + (f": {got['missing']}" if got else ".")
 
 
 def paragraph(text: str) -> list[str]:
-    """The lines of a paragraph; text in backquotes stays on one line."""
+    """Returns the lines of a paragraph; keeps text in backquotes on one line."""
     joined = re.sub(r"`[^`]*`", lambda code: code[0].replace(" ", "\0"), text)
     lines = textwrap.wrap(joined, _COLUMNS, break_long_words=False, break_on_hyphens=False)
     return [line.replace("\0", " ") for line in lines]
 
 
 def table(heads: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> list[str]:
-    """A Markdown table. Bars inside cells are escaped."""
+    """Returns a Markdown table; escapes bars inside cells."""
 
     def line(cells: tuple[str, ...]) -> str:
         return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"

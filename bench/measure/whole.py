@@ -1,16 +1,17 @@
-"""Whole programs on whole files: time and peak memory, and how both grow with lines, edges and clients."""
+"""Measurements of whole programs on whole files: time, peak memory, and their growth with lines, edges, clients and
+cards."""
 import math
 import re
 from pathlib import Path
 
 from running import Progress, Trouble, best_of, run
 
-#: The router's X: 800 counts a mm, 100 mm/s.
+#: One pass of the router's X axis: 100 mm at 800 counts/mm.
 COUNTS_A_PASS = 80_000
 
 
 def spiral(lines: int) -> str:
-    """A program of so many lines of 0.3 mm along a spiral that swings in and out, as bench_job's."""
+    """Returns a program with this many lines of 0.3 mm along a spiral that swings in and out, as in bench_job."""
     out = ["G21 G90 G64 P0.02", "G0 X150 Y100", "G1 F3000"]
     angle = 0.0
     for i in range(1, lines + 1):
@@ -21,7 +22,7 @@ def spiral(lines: int) -> str:
 
 
 def passes(edges: int) -> str:
-    """A program that turns the router's X encoder by about so many counts, to and fro over at most 100 mm."""
+    """Returns a program that turns the router's X encoder by about this many counts, to and fro over at most 100 mm."""
     out = ["G21 G90 G64 P0"]
     for i in range(max(1, round(edges / COUNTS_A_PASS))):
         way = min(100.0, edges / 800)
@@ -30,7 +31,7 @@ def passes(edges: int) -> str:
 
 
 def growth_with_lines(program: Path, scratch: Path, progress: Progress, quick: bool) -> list[dict]:
-    """Programs of 1,000 .. 300,000 lines through check, run and plan."""
+    """Measures check, run and plan on programs of 1,000 to 300,000 lines."""
     progress.step("programs of many lines")
     rows = []
     for lines in (1_000, 10_000) if quick else (1_000, 10_000, 100_000, 300_000):
@@ -48,7 +49,7 @@ def growth_with_lines(program: Path, scratch: Path, progress: Progress, quick: b
 
 
 def counts_decoded(text: str) -> int:
-    """Up and down counts of the only channel that `motionrack decode` told of. Raises Trouble if it told of none."""
+    """Returns up plus down counts of the only channel that `motionrack decode` printed. Raises Trouble if none was."""
     found = re.search(r"^\S+\s+\S+_enc_a,\S+\s+(-?\d+)\s+(\d+)\s+(\d+)", text, re.M)
     if not found:
         raise Trouble(f"motionrack decode told of no encoder:\n{text}")
@@ -56,7 +57,7 @@ def counts_decoded(text: str) -> int:
 
 
 def growth_with_edges(program: Path, scratch: Path, progress: Progress, quick: bool) -> list[dict]:
-    """Encoder edges 10,000 .. 10,000,000 written into VCD files, and decoded from them."""
+    """Measures the writing of 10,000 to 10,000,000 encoder edges into VCD files, and their decoding."""
     progress.step("many edges written and decoded")
     rows = []
     for edges in (10_000, 100_000) if quick else (10_000, 100_000, 1_000_000, 10_000_000):
@@ -94,7 +95,7 @@ _SERVED = {
 
 
 def growth_with_clients(folder: Path, progress: Progress, quick: bool) -> list[dict]:
-    """WebSocket clients that look at a running job at 20 Hz."""
+    """Measures a server with WebSocket clients that read a running job at 20 Hz."""
     progress.step("clients of a served rack")
     rows = []
     for clients in (1, 10) if quick else (1, 10, 50, 100, 200, 400):
@@ -112,7 +113,7 @@ def growth_with_clients(folder: Path, progress: Progress, quick: bool) -> list[d
 
 
 def growth_with_cards(folder: Path, progress: Progress, quick: bool) -> list[dict]:
-    """Peak memory of bench_growth with so many cards."""
+    """Measures the peak memory of bench_growth with 1 to 32 cards."""
     progress.step("memory of many cards")
     return [
         {
@@ -126,8 +127,8 @@ def growth_with_cards(folder: Path, progress: Progress, quick: bool) -> list[dic
 
 
 def captures(scratch: Path, quick: bool) -> list[tuple[str, Path, int, list[str]]]:
-    """Captures of one turning encoder: what they are, the file, its samples,
-    and what `motionrack decode` has to be told of it."""
+    """Writes captures of one turning encoder. Returns for each a description, the file, the number of its samples,
+    and the options of `motionrack decode` for it."""
     turns = 100_000 if quick else 4_000_000
     raw, csv = scratch / "turns.bin", scratch / "turns.csv"
     raw.write_bytes(b"\0\1\3\2" * (turns * 4))
@@ -140,7 +141,7 @@ def captures(scratch: Path, quick: bool) -> list[tuple[str, Path, int, list[str]
 
 
 def programs(program: Path, scratch: Path, progress: Progress, quick: bool, part: Path) -> list[dict]:
-    """What a user runs, with the peak memory of it."""
+    """Measures CPU time and peak memory of the commands that users run."""
     progress.step("whole programs")
     times = 1 if quick else 5
     table = [
