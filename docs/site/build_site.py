@@ -2,9 +2,9 @@
 
     docs/, READMEs, headers, Python package ──► WORK/pages/*.md ──mkdocs──► WORK/html ──checked──► SITE
 
-Everything that a page loads comes from the site, and no page has a script or a style of its own in it, so that the
-strictest content policy holds. Needs the Debian packages mkdocs-material and doxygen, and no network. SITE is replaced
-only by a site without broken links.
+Pages load all their files from the site and have no inline scripts or styles, as the strictest content security policy
+requires. Needs the Debian packages mkdocs-material and doxygen, and no network. SITE is replaced only by a site
+without problems (site_check.py).
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ NOT_SERVED = ("404.html", "sitemap.xml", "sitemap.xml.gz", "assets/javascripts/l
 INLINE = re.compile(r"<script>(.*?)</script>", re.DOTALL)
 KEPT = re.compile(r"(<pre.*?</pre>)", re.DOTALL)
 IMAGE = re.compile(r"""url\((["']?)data:image/svg\+xml;charset=utf-8,(.*?)\1\)""")
-TEASER = 600  # letters of a text that the search may show
-NO_TOOLS = 77  # a test is skipped
+TEASER = 600  # characters of a text that the search can show
+NO_TOOLS = 77  # exit code of a skipped test
 
 
 def need_tools() -> None:
@@ -52,7 +52,7 @@ def need_tools() -> None:
 
 
 def write_pages(source: Path, work: Path) -> list[object]:
-    """All pages as Markdown; the navigation."""
+    """Writes all pages as Markdown; returns the navigation."""
     target = work / "pages"
     shutil.rmtree(target, ignore_errors=True)
     pages = Pages(source, pages_of_headers(source))
@@ -82,7 +82,7 @@ def run_mkdocs(work: Path, nav: list[object]) -> Path:
 
 
 def named(folder: Path, text: str, ending: str) -> Path:
-    """A file with this text, named by its hash."""
+    """Writes a file with this text, named by its hash; returns its path."""
     path = folder / f"{hashlib.sha256(text.encode()).hexdigest()[:12]}{ending}"
     folder.mkdir(parents=True, exist_ok=True)
     path.write_text(text)
@@ -90,14 +90,14 @@ def named(folder: Path, text: str, ending: str) -> Path:
 
 
 def without_blanks(text: str) -> str:
-    """A page without the empty lines and the indents of its templates, which are most of it."""
+    """Returns a page without the empty lines and the indents of its templates, which are most of it."""
     parts = KEPT.split(text)
     parts[::2] = [re.sub(r"[ \t]*\n\s*", "\n", part) for part in parts[::2]]
     return "".join(parts)
 
 
 def move_scripts_out(html: Path) -> None:
-    """Scripts in pages become files."""
+    """Moves inline scripts of pages into files, and removes blanks from the pages."""
     folder = html / "assets/javascripts"
     for page in html.rglob("*.html"):
         up = "../" * (len(page.relative_to(html).parts) - 1)
@@ -109,7 +109,7 @@ def move_scripts_out(html: Path) -> None:
 
 
 def move_images_out(html: Path) -> None:
-    """Images in style sheets become files."""
+    """Moves images in style sheets into files, and removes references to source maps."""
     for sheet in (html / "assets/stylesheets").glob("*.css"):
 
         def moved(found: re.Match[str]) -> str:
@@ -121,14 +121,14 @@ def move_images_out(html: Path) -> None:
 
 
 def words_once(text: str) -> str:
-    """The beginning of a text, then each further word once."""
+    """Returns the beginning of a text, then each further word once."""
     end = text.rfind(" ", 0, TEASER) if len(text) > TEASER else len(text)
     seen = set(text[:end].split())
     return " ".join([text[:end], *dict.fromkeys(word for word in text[end:].split() if word not in seen)])
 
 
 def shorten_search(html: Path) -> None:
-    """The index stays quick to load. A page is found with each of its sections: the theme shows them below it."""
+    """Shortens the index, so that it loads quickly. A page gets the words of its sections: they are shown below it."""
     path = html / "search/search_index.json"
     index = json.loads(path.read_text())
     texts: dict[str, list[str]] = {}
@@ -144,7 +144,7 @@ def shorten_search(html: Path) -> None:
 
 
 def mend_search(html: Path) -> None:
-    """The search also finds words at their first letter."""
+    """Corrects the search of the theme, see site_search.py."""
     scripts = list((html / "assets/javascripts/workers").glob("search.*.js"))
     if not scripts:
         sys.exit("The site was not built: the theme has no script of its search in assets/javascripts/workers.")

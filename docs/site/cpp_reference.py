@@ -1,8 +1,8 @@
-"""The reference of the installed C and C++ headers, from Doxygen's XML: a page a folder, a section a header.
+"""Reference of the installed C and C++ headers, by Doxygen: a page per folder or C header, a section per header.
 
     headers ──doxygen──► XML ──► declarations with their comments, in the order of the header ──► Markdown
 
-Private members are left out, and so are bodies.
+Private members and bodies are left out.
 """
 
 from __future__ import annotations
@@ -24,24 +24,24 @@ C_HEADERS = (
     "motionrack/frontends/databoard4002lib/databoard4002lib.h",
     "motionrack/frontends/rtc5sim/rtc5sim.h",
 )
-# As cmake/install.cmake leaves them out.
+# Headers that cmake/install.cmake leaves out.
 NOT_INSTALLED = re.compile(r"/(test|windows|frontends|report)/|/wire\.hpp$|/(hdf5|nats|dds|late)_library\.hpp$")
-# In C a comment is a plain one: before a declaration, or behind it in the same line.
+# Turns the plain comments of C, before a declaration or behind it in its line, into those of Doxygen.
 C_FILTER = r"sed -E 's#([^ ] +)/\* #\1/**< #; s#^( *)/\* ([^-])#\1/** \2#'"
 WIDTH = 100
-MAX_VALUE = 60  # letters of an initial value; longer ones are tables
+MAX_VALUE = 60  # characters of an initial value; longer ones, such as tables, are left out
 
 
 @dataclass
 class Declaration:
-    """One thing that a header declares."""
+    """One declaration of a header."""
 
     file: str
     line: int
     text: str  # without a comment
     comment: str
     members: list[Declaration] = field(default_factory=list)
-    kind: str = ""  # class, struct, union or enum; empty for what stands in one line
+    kind: str = ""  # class, struct, union or enum; empty for a declaration of one line
 
 
 def installed_headers(source: Path) -> list[str]:
@@ -50,7 +50,7 @@ def installed_headers(source: Path) -> list[str]:
 
 
 def run_doxygen(source: Path, work: Path) -> Path:
-    """Doxygen's XML of the installed headers, made again when one has changed; the folder that has it."""
+    """Makes Doxygen's XML of the installed headers, if one has changed; returns its folder."""
     settings = {
         "INPUT": " ".join(installed_headers(source)),
         "OUTPUT_DIRECTORY": str(work),
@@ -85,7 +85,7 @@ def run_doxygen(source: Path, work: Path) -> Path:
 
 
 def words(node: ET.Element | None) -> str:
-    """The text of a description; its paragraphs are apart by an empty line."""
+    """Returns the text of a description, with empty lines between paragraphs."""
     if node is None:
         return ""
     parts = []
@@ -102,7 +102,7 @@ def comment_of(node: ET.Element) -> str:
 
 
 def tidy(text: str) -> str:
-    """C++ as it is written: `Result<void>`, not `Result< void >`."""
+    """Returns C++ with the blanks of handwritten code: `Result<void>`, not `Result< void >`."""
     text = re.sub(r"< ", "<", text)
     text = re.sub(r" >", ">", text)
     text = re.sub(r" ?=(0|default)$", r" = \1", text)
@@ -133,7 +133,7 @@ def enumeration(node: ET.Element) -> Declaration:
 
 
 def declaration(node: ET.Element, owner: str) -> Declaration:
-    """A function, variable or type of an owner, "motionrack::control::Move"."""
+    """Returns the declaration of a function, variable or type of an owner such as "motionrack::control::Move"."""
     if node.get("kind") == "enum":
         return enumeration(node)
     file, line = place(node)
@@ -156,7 +156,7 @@ def is_deleted(node: ET.Element) -> bool:
 
 
 class Reference:
-    """Everything that the headers declare, by header."""
+    """All declarations of the headers, by header."""
 
     def __init__(self, xml: Path) -> None:
         self.headers: dict[str, list[Declaration]] = defaultdict(list)
@@ -168,7 +168,7 @@ class Reference:
     def take(self, node: ET.Element) -> None:
         kind, owner = node.get("kind"), text_of(node.find("compoundname"))
         if "@" in owner:
-            return  # without a name
+            return  # unnamed
         if kind in ("class", "struct", "union") and node.get("prot", "public") == "public":
             found = self.structure(node, kind, owner)
             self.headers[found.file].append(found)
@@ -198,7 +198,7 @@ class Reference:
 
 
 def commented(one: Declaration, indent: str) -> list[str]:
-    """A declaration of one line, its comment beside or above it."""
+    """Returns the lines of a one-line declaration, with its comment beside or above it."""
     body = textwrap.wrap(one.text, WIDTH, subsequent_indent="    ", break_long_words=False) or [""]
     lines = [indent + line for line in body]
     flat = " ".join(one.comment.split())
@@ -213,7 +213,7 @@ def commented(one: Declaration, indent: str) -> list[str]:
 
 
 def block(one: Declaration, indent: str = "") -> list[str]:
-    """A declaration as the header has it."""
+    """Returns the lines of a declaration as the header has it."""
     if not one.kind:
         return commented(one, indent)
     if indent:  # inside a class, where it has no section of its own
@@ -233,7 +233,7 @@ def fence(lines: list[str], language: str) -> str:
 
 
 def heading_comment(text: str) -> str:
-    """The comment at the beginning of a header, as Markdown; drawings stay as they are."""
+    """Returns the comment at the beginning of a header as Markdown; drawings stay as they are."""
     found = re.match(r"((?://.*\n)+)", text)
     if found:
         lines = [line[3:] for line in found[1].split("\n")]
@@ -248,7 +248,7 @@ def heading_comment(text: str) -> str:
 
 
 def section(header: str, text: str, declared: list[Declaration]) -> str:
-    """A header as a part of its folder's page."""
+    """Returns the section of a header on its page."""
     out = f"## {Path(header).name}\n\n{heading_comment(text)}"
     language = "c" if header in C_HEADERS else "cpp"
     loose: list[str] = []
@@ -269,7 +269,7 @@ def anchor(header: str) -> str:
 
 
 def page_of(header: str) -> str:
-    """The page of a header: that of its folder; a C header has its own."""
+    """Returns the page of a header: that of its folder, or its own for a C header."""
     if header in C_HEADERS:
         return f"reference/headers/{Path(header).name}.md"
     folder = Path(header).parent.as_posix().removeprefix("motionrack/")
@@ -277,12 +277,12 @@ def page_of(header: str) -> str:
 
 
 def pages_of_headers(source: Path) -> dict[str, str]:
-    """The page with its anchor of each header."""
+    """Returns the page and anchor of each header."""
     return {header: f"{page_of(header)}#{anchor(header)}" for header in installed_headers(source)}
 
 
 def write_cpp_reference(source: Path, work: Path, target: Path) -> list[str]:
-    """Writes the pages; their names in the site."""
+    """Writes the pages; returns their names in the site."""
     reference = Reference(run_doxygen(source, work))
     pages: dict[str, str] = {}
     for header in installed_headers(source):

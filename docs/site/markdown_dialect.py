@@ -1,6 +1,6 @@
-"""Turns the pages' CommonMark, as GitHub shows it, into the dialect of Python-Markdown.
+"""Conversion of the pages from CommonMark, as GitHub shows it, to the dialect of Python-Markdown.
 
-Python-Markdown wants an empty line before a list and a table, and four blanks for each level of a list.
+Python-Markdown needs an empty line before a list and a table, and four blanks for each level of a list.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ FENCE = re.compile(r" *(```+|~~~+)")
 
 
 def outside_fences(text: str) -> Iterator[tuple[str, bool]]:
-    """Each line, and whether it is prose: neither a fence nor inside one."""
+    """Yields each line, and whether it is prose: neither a fence nor inside one."""
     fence = ""
     for line in text.split("\n"):
         mark = FENCE.match(line)
@@ -43,7 +43,7 @@ class Lists:
             self.offsets.pop()
 
     def moved(self, line: str, after_empty: bool) -> str:
-        """The line with four blanks for each open item that it belongs to."""
+        """Returns the line with four blanks for each open item that it belongs to."""
         indent = indent_of(line)
         item = ITEM.match(line)
         if item and (self.offsets or indent < 4):
@@ -56,13 +56,13 @@ class Lists:
         if after_empty:
             self.close_to(indent)
         elif indent < self.offsets[-1]:
-            return line  # goes on with the paragraph of the item
+            return line  # continues the paragraph of the item
         deepest = self.offsets[-1] if self.offsets else 0
         return " " * (4 * len(self.offsets) + max(indent - deepest, 0)) + line.lstrip(" ")
 
 
 def to_python_markdown(text: str) -> str:
-    """The same page for Python-Markdown."""
+    """Returns the page in the dialect of Python-Markdown."""
     out: list[str] = []
     lists = Lists()
     for line, prose in outside_fences(text):

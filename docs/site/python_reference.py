@@ -1,4 +1,4 @@
-"""The Python package's reference, from the docstrings and stubs of python/motionrack: a page a module."""
+"""Reference of the Python package, from the docstrings and stubs of python/motionrack: a page per module."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ PACKAGE = "python/motionrack"
 
 
 def prose(text: str | None) -> str:
-    """A docstring as Markdown."""
+    """Returns a docstring as Markdown."""
     if not text:
         return ""
     text = ROLE.sub(r"`\1`", text).replace("``", "`")
@@ -19,7 +19,7 @@ def prose(text: str | None) -> str:
 
 
 def signature(node: ast.FunctionDef, name: str) -> str:
-    """`run(program: str, *, faults: Sequence[str] = ()) -> Outcome`, without self."""
+    """Returns the signature without self: `run(program: str, *, faults: Sequence[str] = ()) -> Outcome`."""
     arguments = ast.unparse(node.args)
     arguments = re.sub(r"^(self|cls)(, |$)", "", arguments)
     result = f" -> {ast.unparse(node.returns)}" if node.returns and node.name != "__init__" else ""
@@ -31,13 +31,13 @@ def decorators(node: ast.FunctionDef) -> set[str]:
 
 
 def member(owner: str, node: ast.FunctionDef) -> str:
-    """A method or property with its docstring."""
+    """Returns the section of a method or property; "" for private ones, setters and overloads."""
     kinds = decorators(node)
     if "setter" in kinds or "overload" in kinds or (node.name.startswith("_") and node.name != "__init__"):
         return ""
     if node.name == "__init__":
         if not ast.get_docstring(node):
-            return ""  # made by other calls
+            return ""  # other calls make these objects
         return f"```python\n{signature(node, owner)}\n```\n\n{prose(ast.get_docstring(node))}\n\n"
     shown = signature(node, node.name)
     if "property" in kinds:
@@ -48,7 +48,7 @@ def member(owner: str, node: ast.FunctionDef) -> str:
 
 
 def fields(node: ast.ClassDef, lines: list[str]) -> str:
-    """The members of a class of data, as its source has them, with the comments beside them."""
+    """Returns the annotated members of a class as in its source, with the comments beside them."""
     found = [
         lines[each.lineno - 1].strip()
         for each in node.body
@@ -58,7 +58,7 @@ def fields(node: ast.ClassDef, lines: list[str]) -> str:
 
 
 def thing(node: ast.stmt, lines: list[str]) -> str:
-    """A class or function of the package; `lines`: its source."""
+    """Returns the section of a class or function of the package; `lines`: the source of its module."""
     if isinstance(node, ast.FunctionDef):
         return f"## {node.name}\n\n```python\n{signature(node, node.name)}\n```\n\n{prose(ast.get_docstring(node))}\n\n"
     if not isinstance(node, ast.ClassDef):
@@ -70,7 +70,7 @@ def thing(node: ast.stmt, lines: list[str]) -> str:
 
 
 def public_names(tree: ast.Module) -> dict[str, list[str]]:
-    """For each module the names that the package takes from it; "" is the package itself."""
+    """Returns the names that the package imports from each module; "" is the package itself."""
     out: dict[str, list[str]] = {"": []}
     for node in tree.body:
         if isinstance(node, ast.ImportFrom) and node.module and node.level == 1 and node.module != "_version":
@@ -81,7 +81,7 @@ def public_names(tree: ast.Module) -> dict[str, list[str]]:
 
 
 def write_python_reference(source: Path, target: Path) -> list[str]:
-    """Writes the pages into target/reference/python; their names in the site."""
+    """Writes the pages into target/reference/python; returns their names in the site."""
     folder = source / PACKAGE
     package = ast.parse((folder / "__init__.py").read_text())
     names = public_names(package)

@@ -1,7 +1,7 @@
 """Rules for every file of the site: site_check.py SITE [WORD PAGE]...
 
-Links lead to a file and a heading of the site; a page loads nothing from another host and has no script or style in
-it; the search has an index, and finds each WORD on its PAGE.
+Links lead to a file and a heading of the site. A page loads nothing from another host and has no inline script or
+style. The search has an index, and finds each WORD on its PAGE.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ LOADS = {
 
 
 class Page(HTMLParser):
-    """A page's anchors, links, and what it loads."""
+    """Anchors, links, loaded files, and inline scripts and styles of a page."""
 
     def __init__(self, text: str) -> None:
         super().__init__(convert_charrefs=True)

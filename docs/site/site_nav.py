@@ -1,7 +1,6 @@
-"""The navigation: the sections of docs/README.md, and the pages that it does not name.
+"""Navigation of the site: the sections of docs/README.md, and the pages that it does not name.
 
-A paragraph that begins with **How to** or **How to** with more words is a part of "How to"; the first words in bold
-name the section.
+The words in bold at the beginning of a paragraph name its section. Words after **How to** name a part of "How to".
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ Nav = list[object]
 
 
 def sections_of(pages: Pages) -> list[tuple[str, str, list[str]]]:
-    """Name, the words after it, and the site's pages of each section, each page once."""
+    """Returns name, the words after it, and pages in the site of each section, each page once."""
     sections: list[tuple[str, str, list[str]]] = []
     seen = {"index.md"}
     for line in pages.texts["docs/README.md"].split("\n"):
@@ -34,13 +33,13 @@ def sections_of(pages: Pages) -> list[tuple[str, str, list[str]]]:
 
 
 def part_name(words: str) -> str:
-    """The name of a part of "How to", of the words that follow it."""
+    """Returns the name of a part of "How to", from the words that follow it."""
     name = re.sub(r", each with.*", "", words)
     return name[:1].upper() + name[1:]
 
 
 def navigation(pages: Pages, cpp: list[str], python: list[str]) -> Nav:
-    """What mkdocs takes as `nav`; titles are those of the pages."""
+    """Returns the `nav` of mkdocs; titles are those of the pages."""
     groups: dict[str, Nav] = {}
     sections = sections_of(pages)
     for name, words, names in sections:

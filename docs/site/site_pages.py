@@ -1,10 +1,10 @@
-"""Which files of the tree are pages of the site, and where their links lead there.
+"""Pages of the site: the name in the site of each file of the tree, and the targets of its links.
 
     docs/howto/panel.md            howto/panel.md
     README.md, CONTRIBUTING.md     overview.md, contributing.md
     examples/marking/README.md     examples/marking/index.md
     examples/mcx314/line.cpp       examples/mcx314/line.cpp.md, with its text; where a page links to it
-    motionrack/control/move.hpp    its section in the reference, reference/cpp/control.md
+    motionrack/control/move.hpp    its section in the reference, reference/headers/control.md
     tests/docs_test.cpp            a name: sources are in the tree and not in the site
 """
 
@@ -40,7 +40,7 @@ LANGUAGES = {
 
 
 def site_name(path: str) -> str:
-    """The page's name in the site, of a Markdown file of the tree."""
+    """Returns the name in the site of a Markdown file of the tree."""
     if path in TOP:
         return TOP[path]
     name = PurePosixPath(path.removeprefix("docs/"))
@@ -53,16 +53,16 @@ def title_of(text: str) -> str:
 
 
 def without_repetition(line: str) -> str:
-    """A line of an index without words that only say the title of its link again."""
+    """Returns a line of an index, without a description that only repeats the title of its link."""
     found = re.fullmatch(r"(- \[([^\]]+)\]\([^)]*\)): (.*)", line)
     return found[1] if found and found[2].lower() == found[3].lower() else line
 
 
 class Pages:
-    """The pages that are made of Markdown files of the tree."""
+    """Pages of the site that are made of Markdown files of the tree."""
 
     def __init__(self, source: Path, headers: dict[str, str]) -> None:
-        """`headers`: of each header in the reference, its page and anchor."""
+        """Reads the files. `headers`: page and anchor of each header in the reference."""
         self.source = source
         self.headers = headers
         found = [source / name for name in TOP if "/" not in name]
@@ -72,7 +72,7 @@ class Pages:
         self.texts = {path: (source / path).read_text() for path in paths}
         self.names = {path: site_name(path) for path in paths}
         self.titles = {path: title_of(text) for path, text in self.texts.items()}
-        self.shown: set[str] = set()  # sources of examples that get a page
+        self.shown: set[str] = set()  # sources of examples, and LICENSE, if a page links to them
         self.pictures: set[str] = set()
 
     def write(self, target: Path) -> None:
@@ -106,7 +106,7 @@ class Pages:
         return "\n".join(lines)
 
     def link(self, path: str, name: str, found: re.Match[str]) -> str:
-        """A link of the page `path`, which is `name` in the site."""
+        """Returns the link in the site for a link of the page `path`, which is `name` in the site."""
         mark, words, to = found.groups()
         if re.match(r"[a-z]+:", to) or to.startswith("#"):
             return found[0]
@@ -123,7 +123,7 @@ class Pages:
         return f"{mark}[{words}]({relative}{'#' if anchor else ''}{anchor})"
 
     def page_of(self, path: str) -> str | None:
-        """The site's file for a file or folder of the tree; None: it has none."""
+        """Returns the file in the site for a file or folder of the tree; None if it has none."""
         if (self.source / path).is_dir():
             path = f"{path}/README.md" if path != "docs/decisions" else "docs/README.md"
         if path in self.names:

@@ -1,9 +1,9 @@
-"""Mends the search of the theme, which finds nothing at some letters.
+"""Correction of the theme's search, which finds nothing for some inputs.
 
-lunr keeps the words of all pages as a graph of letters, and takes nodes with equal texts for one. The text of a node
-has each of its letters and, at once behind it, the number of the node that the letter leads to: where letters are
-digits, two different nodes may have equal texts ("1" to 23, "12" to 3). The graph then has words that no page has, as
-"x1.4", and a search that comes to one of them ends without a result. A comma behind each number tells them apart.
+lunr keeps the words of all pages as a graph of letters, and merges nodes with equal texts. The text of a node has each
+of its letters, followed by the number of the node that the letter leads to: where letters are digits, two different
+nodes may have equal texts ("1" to 23, "12" to 3). The graph then has words that no page has, such as "x1.4", and a
+search that reaches one of them ends without a result. A comma after each number separates the two.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ NODE_TEXT = re.compile(r"(TokenSet\.prototype\.toString=function\(\)\{[^{}]*\{[^
 
 
 def mended_search(script: str) -> str:
-    """The theme's script of the search, with a comma behind each number. Raises ValueError if it is another one."""
+    """Returns the search script of the theme with a comma after each number. Raises ValueError for another script."""
     mended, count = NODE_TEXT.subn(r'\1+","}', script)
     if count != 1:
         raise ValueError(
