@@ -1,10 +1,10 @@
-# Used by cmake/setup.sh: what a machine may lack, each with the sentence that says so and what to do. Sourced, not run.
+# Used by cmake/setup.sh: checks of the machine, each with a message that has the remedy. Sourced, not run.
 # shellcheck shell=bash
 
 # shellcheck disable=SC2016  # the reader's shell expands it
 instead='Use Debian 12, or a container of it: podman run -it -v "$PWD:/motionrack" -w /motionrack debian:12 ./run'
 
-# os_field NAME: a field of /etc/os-release, such as VERSION_ID; empty where there is none.
+# os_field NAME: prints a field of /etc/os-release, such as VERSION_ID; nothing if it does not exist.
 os_field() { sed -n "s/^$1=\"\{0,1\}\([^\"]*\)\"\{0,1\}\$/\1/p" /etc/os-release 2>/dev/null || true; }
 
 system_name() {
@@ -15,7 +15,7 @@ system_name() {
 
 is_debian_12() { [ "$(os_field ID) $(os_field VERSION_ID)" = "debian 12" ]; }
 
-# need_apt: 1, with the sentence, on a system whose packages are of another kind.
+# need_apt: fails with a message on a system without apt-get or dpkg-query.
 need_apt() {
     if command -v apt-get >/dev/null 2>&1 && command -v dpkg-query >/dev/null 2>&1; then return 0; fi
     say "this machine is $(system_name), without apt-get: motionrack is built with packages of Debian 12." \
@@ -23,7 +23,7 @@ need_apt() {
     return 1
 }
 
-# why_apt_failed LOG: the sentences for what apt-get said.
+# why_apt_failed LOG: prints the reasons for the failure of apt-get, with their remedies.
 why_apt_failed() {
     local log=$1 unknown unreached
     if grep -qE 'No space left on device|enough free space' "$log"; then
@@ -55,10 +55,10 @@ why_apt_failed() {
 
 # ---- programs ----
 
-# older VERSION LEAST: whether it is older, as 3.18.4 is than 3.25.
+# older VERSION LEAST: succeeds if VERSION is older, as 3.18.4 is older than 3.25.
 older() { [ "$1" != "$2" ] && [ "$(printf '%s\n%s\n' "$1" "$2" | sort -V | head -n 1)" = "$1" ]; }
 
-# need_program NAME PACKAGE: packages that dpkg takes for installed may have lost their files.
+# need_program NAME PACKAGE: fails with a message without the program: an installed package may have lost its files.
 need_program() {
     command -v "$1" >/dev/null 2>&1 && return 0
     say "there is no program $1 in PATH, although the Debian package $2 is installed. Nothing was configured." \
@@ -66,7 +66,7 @@ need_program() {
     return 1
 }
 
-# need_compiler WORDS...: a C++ compiler with its first options, as CXX may have them.
+# need_compiler WORDS...: fails with a message unless the C++ compiler (options as in CXX) works and is not too old.
 need_compiler() {
     local said version least=12 scratch
     if ! command -v "$1" >/dev/null 2>&1; then
@@ -95,7 +95,7 @@ need_compiler() {
     return 1
 }
 
-# need_tools CMAKE-OPTIONS...: what configuring needs, of the versions that it needs.
+# need_tools CMAKE-OPTIONS...: fails with a message unless cmake, ninja and the compiler are there and new enough.
 need_tools() {
     local word compiler=() version
     need_program cmake cmake || return 1
@@ -110,7 +110,7 @@ need_tools() {
     for word in "$@"; do
         case $word in -DCMAKE_CXX_COMPILER=*) compiler=("${word#*=}") ;; esac
     done
-    # Where none is named, CMake takes the first of these.
+    # Without a named compiler, CMake takes the first of these that exists.
     for word in c++ g++ clang++; do
         if [ ${#compiler[@]} -eq 0 ] && command -v "$word" >/dev/null 2>&1; then compiler=("$word"); fi
     done
@@ -118,17 +118,17 @@ need_tools() {
     need_compiler "${compiler[@]}"
 }
 
-# ---- room ----
+# ---- disk space ----
 
-# free_mb FOLDER: of the disk that it is on, or will be on.
+# free_mb FOLDER: prints the free space, MB, of the disk of a folder, which may not exist yet.
 free_mb() {
     local folder=$1
     while [ ! -d "$folder" ]; do folder=$(dirname "$folder"); done
     df -Pk "$folder" | awk 'NR == 2 {print int($4 / 1024)}'
 }
 
-# no_room FOLDER: after something failed: whether so little is free in it, or where the compiler writes, that a file
-# may not have found room; says so. No file of a build is larger than 200 MB, and what did not fit is taken away again.
+# no_room FOLDER: after a failure, succeeds with a message if less than 200 MB are free in FOLDER or where the compiler
+# writes. No file of a build is larger than that, and a file that did not fit is removed again.
 no_room() {
     local folder
     for folder in "$(realpath -m "$1")" "${TMPDIR:-/tmp}"; do

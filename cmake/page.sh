@@ -1,11 +1,11 @@
-# Used by cmake/setup.sh: builds the operator panel's web page, where that is possible. Sourced, not run.
+# Used by cmake/setup.sh: builds the operator panel's web page, if that is possible. Sourced, not run.
 # shellcheck shell=bash
 
-# Node.js of Debian 12.
+# Oldest usable version of Node.js: that of Debian 12.
 page_node=18
 
-# page_packages: the packages of hmi/package-lock.json into hmi/node_modules, unless they are there. npm takes from its
-# cache those that it has fetched before, so that the network is needed only for new ones.
+# page_packages: installs the packages of hmi/package-lock.json into hmi/node_modules, unless they are there. npm takes
+# packages from its cache if it has them, so that only new ones need the network.
 page_packages() {
     local stamp=hmi/node_modules/.made-of want log
     want=$(sha256sum hmi/package-lock.json)
@@ -20,7 +20,7 @@ page_packages() {
     printf '%s' "$want" >"$stamp"
 }
 
-# why_npm_failed LOG: the sentence for npm's trouble.
+# why_npm_failed LOG: prints the reason for the failure of npm, with its remedy.
 why_npm_failed() {
     local log=$1 unreached
     unreached=$(sed -nE 's/^npm (ERR!|error) (.* )?request to .* failed, reason: (.*)/\3/p' "$log" | head -n 1)
@@ -34,7 +34,7 @@ why_npm_failed() {
     fi
 }
 
-# page_node_is_new: whether node and npm are there, installed if need be, and new enough; says it where not.
+# page_node_is_new: installs node and npm if they are missing; fails with a message unless node is new enough.
 page_node_is_new() {
     local version
     if ! command -v node >/dev/null 2>&1 || ! command -v npm >/dev/null 2>&1; then
@@ -47,8 +47,8 @@ page_node_is_new() {
     return 1
 }
 
-# build_page FOLDER: the operator panel's web page into FOLDER/share/motionrack/page, where the program in FOLDER/bin
-# looks for it; only if its sources changed. Where it cannot be built the program still runs, so that is no failure.
+# build_page FOLDER: builds the operator panel's web page into FOLDER/share/motionrack/page, where the program in
+# FOLDER/bin looks for it, if its sources changed. Succeeds also without a page, as the program runs without it.
 build_page() {
     local folder="$PWD/$1/share/motionrack/page" stamp="$1/.page-made-of" want log shown
     shown="a text in its place"

@@ -7,7 +7,7 @@
 
 say() { printf '%s\n' "motionrack: $*" >&2; }
 
-# need_packages PACKAGE...: installs those that are not there, saying first which and why root is needed.
+# need_packages PACKAGE...: prints and installs the missing ones; fails with a message without root and sudo.
 need_packages() {
     need_apt || return 1
     local missing=() package
@@ -28,7 +28,7 @@ need_packages() {
     local log
     log=$(mktemp)
     if ! {
-        # A machine whose last installation was cut off is put right first.
+        # Repairs an interrupted installation first.
         "${sudo[@]}" dpkg --configure -a &&
             "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
                 apt-get -o DPkg::Lock::Timeout=300 -y -q --fix-broken install &&
@@ -43,7 +43,7 @@ need_packages() {
     rm -f "$log"
 }
 
-# without_ninja_idle FOLDER: what ninja says once there is something to build, with a sentence before it.
+# without_ninja_idle FOLDER: passes the output of ninja on, after a message, once there is something to build.
 without_ninja_idle() {
     local line said=""
     while IFS= read -r line; do
@@ -56,8 +56,8 @@ without_ninja_idle() {
     done
 }
 
-# build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; quiet unless something is wrong
-# or long. A folder that has the tests too does for what is asked without them, so ./run and ./test share one.
+# build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; prints nothing if there is
+# nothing to do. A folder configured with tests also serves calls without them, so that ./run and ./test share one.
 build_in() {
     local folder=$1 targets=$2
     shift 2
@@ -78,7 +78,7 @@ build_in() {
         }
         printf '%s' "$want" >"$stamp"
     fi
-    # What ninja says before it knows whether there is work is left out.
+    # Leaves out the lines that ninja prints before it knows whether there is work.
     # shellcheck disable=SC2086  # the targets are words
     ninja -C "$folder" $targets 2>&1 | without_ninja_idle "$folder" >&2 || {
         no_room "$folder" || say "the build failed; see above"
@@ -86,7 +86,7 @@ build_in() {
     }
 }
 
-# What ./run and ./test configure build/release with, besides MOTIONRACK_TESTS.
+# Options with which ./run and ./test configure build/release, besides MOTIONRACK_TESTS.
 # shellcheck disable=SC2034  # both use it
 release_options=(-DCMAKE_BUILD_TYPE=Release -DMOTIONRACK_WERROR=ON -DCMAKE_INSTALL_PREFIX=/usr)
 
