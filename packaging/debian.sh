@@ -1,7 +1,7 @@
-# A Debian 12 in a folder, made of Debian's packages alone. Sourced by packaging/test and packaging/container, not run.
+# Debian 12 in a folder, made only of Debian's packages. Sourced by packaging/test and packaging/container, not run.
 # shellcheck shell=bash
 
-# debian_in FOLDER LOG: makes it, with nothing in it but what every Debian has.
+# debian_in FOLDER LOG: makes a minimal Debian in the folder.
 debian_in() {
     local folder=$1 log=$2 mirror
     # shellcheck disable=SC2016  # apt-get's own fields
@@ -14,7 +14,7 @@ debian_in() {
     }
 }
 
-# inside FOLDER COMMAND...: runs it there as root; as USER where that is set, in the user's home.
+# inside FOLDER COMMAND...: runs the command there as root, or as the user in USER_INSIDE, in the user's home.
 inside() {
     local folder=$1 user=${USER_INSIDE:-root} home=/root
     shift
@@ -23,13 +23,13 @@ inside() {
         PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"
 }
 
-# enter FOLDER: what programs in there look for: /proc, and the names of the network.
+# enter FOLDER: mounts /proc and copies resolv.conf, which programs in the folder need.
 enter() {
     mountpoint -q "$1/proc" || mount -t proc proc "$1/proc"
     cp /etc/resolv.conf "$1/etc/resolv.conf"
 }
 
-# leave FOLDER: nothing of this computer is left in it.
+# leave FOLDER: unmounts /proc.
 leave() {
     ! mountpoint -q "$1/proc" || umount "$1/proc"
 }
