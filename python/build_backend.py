@@ -1,4 +1,4 @@
-"""Makes the wheel of the package with CMake, a compiler and Python's standard library: PEP 517, without network.
+"""Build backend (PEP 517): makes the wheel with CMake, a compiler and Python's standard library, without network.
 
     pip ──build_wheel──► cmake -S .. -B ../build/python ──► _core.*.so and the package's files
                                                           ──► motionrack-VERSION-cp311-cp311-linux_x86_64.whl

@@ -131,7 +131,7 @@ class LiveCard(MappedCard):
 
     @property
     def stopped(self) -> bool:
-        """Whether a stop is active."""
+        """True while a stop is active."""
         return self._port.stopped()
 
     def close(self) -> None:
@@ -143,7 +143,7 @@ class LiveCard(MappedCard):
 
     @property
     def closed(self) -> bool:
-        """Whether the card was closed."""
+        """True once the card was closed."""
         return self._port.closed()
 
     def __enter__(self) -> LiveCard:

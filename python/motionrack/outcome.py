@@ -118,7 +118,7 @@ class Outcome:
     _ran: Any = field(repr=False, compare=False)
 
     def check(self) -> Outcome:
-        """Raises ``error`` if there is one; else the outcome itself."""
+        """Raises ``error`` if there is one; else returns the outcome itself."""
         if self.error is not None:
             raise self.error
         return self
@@ -211,7 +211,7 @@ class Homing:
     _json: str = field(repr=False)
 
     def check(self) -> Homing:
-        """Raises ``error`` if there is one; else the outcome itself."""
+        """Raises ``error`` if there is one; else returns the outcome itself."""
         if self.error is not None:
             raise self.error
         return self

@@ -19,7 +19,7 @@ LOOK_BEHIND = 1_000_000_000  # ticks, 0.1 s: motion that continues after a progr
 MIN_SECONDS = 0.01  # minimum interval of a mean velocity
 STANDS_WITHIN = 0.05  # mm or deg: a servo that holds its position oscillates
 
-checks: list[str] = []  #: what was checked so far
+checks: list[str] = []  #: names of the checks made so far
 
 
 class Picture:
@@ -75,7 +75,7 @@ def put(owner: Any, name: str, call: Callable[..., Any]) -> None:
 
 
 def install_on_racks() -> None:
-    """Checks the laws in the calls of a rack that advance time."""
+    """Replaces the calls of a rack that advance time by calls that check the laws."""
     pass_time: Callable[[_core.RackHandle, int], None] = _core.RackHandle.advance
     run: Callable[..., Any] = _core.run
     home: Callable[..., Any] = _core.home
@@ -123,9 +123,9 @@ def install_on_racks() -> None:
 
 
 def install_on_machines() -> None:
-    """Checks the laws in the call of a machine that advances time."""
+    """Replaces the calls of a machine that advance time or reset it by calls that check the laws."""
     operate, end_stop = _core.SteppedMachine.advance, _core.SteppedMachine.reset
-    reset: weakref.WeakSet[_core.SteppedMachine] = weakref.WeakSet()  # since time passed
+    reset: weakref.WeakSet[_core.SteppedMachine] = weakref.WeakSet()  # machines reset since their time last advanced
 
     def step(machine: _core.SteppedMachine, ticks: int) -> None:
         before = machine.status()

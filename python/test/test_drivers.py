@@ -1,4 +1,4 @@
-"""Function libraries from Python: what they do to the cards and the machine, their time-outs and refusals."""
+"""Function libraries from Python: their effects on the cards and the machine, timeouts and refusals."""
 
 from __future__ import annotations
 

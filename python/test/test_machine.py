@@ -32,7 +32,7 @@ def ready() -> Machine:
 
 
 def operated() -> tuple[str, float, str]:
-    """Runs a program with a feed hold, then a jog."""
+    """Runs a program with a feed hold, then a jog; returns trace hash, X in the hold, and Y with ticks at the end."""
     with ready() as machine:
         machine.start_program(TEXT, "there.ngc")
         machine.advance(0.5)

@@ -110,7 +110,7 @@ class Time(unittest.TestCase):
             rack.wait(lambda: True, timeout=1, poll=0)
 
     def test_a_wait_for_a_wire_ends_at_its_exact_instant(self) -> None:
-        """The referee looks at the same rack in steps of a tick of the chip."""
+        """Compares the instant with a copy of the rack, advanced to one chip clock (125 ns) before it, then to it."""
         rack = Rack.template("router")
         driver = rack.cards["motion"].driver
         driver.initialise()

@@ -20,7 +20,7 @@ TEXT = "G21 G90 G64 P0.02\nG1 X10 Y5 F600\nG3 X20 Y15 I0 J10\nG0 X0 Y0\nM2\n"
 
 
 def referee(*words: str, text: str = TEXT) -> subprocess.CompletedProcess[str]:
-    """Runs the program by the command line."""
+    """Runs a command of motionrack with `text` on its standard input."""
     return subprocess.run([PROGRAM, *words], input=text, capture_output=True, text=True, timeout=120, check=False)
 
 
