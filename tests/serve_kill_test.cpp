@@ -1,5 +1,5 @@
 // State after a run was killed: no acknowledged command is lost. The next run knows the executed program and its line,
-// and that no axis position is valid.
+// and that no axis position is valid. After a requested end all positions are valid.
 #include <gmock/gmock.h>
 
 #include <motionrack/journal/journal.hpp>
@@ -117,6 +117,27 @@ TEST_F(RackServer, KeepsItsPositionsAfterARequestedEnd) {
     EXPECT_THAT(served.said, testing::Not(HasSubstr("cut off")));
     const json status = served.status();
     EXPECT_EQ(status["axes"][0]["commanded"], 12.5);
+    EXPECT_TRUE(status["axes"][0]["position_valid"]);
+    EXPECT_TRUE(status["alarms"].empty());
+}
+
+TEST_F(RackServer, KeepsItsPositionsAfterAStartThatFailed) {
+    {
+        Served served(arguments());
+        make_ready(served);
+        EXPECT_EQ(served.end(SIGTERM), 0);
+    }
+    {
+        const Served other({(folder / "table.toml").string(), "--port", "0", "--no-auth", "--users",
+                            (folder / "others.json").string()});
+        const Ran ran = motionrack("serve table.toml --no-auth --users users.json --journal table.journal --port " +
+                                   std::to_string(other.port()));
+        EXPECT_EQ(ran.code, 5);
+        EXPECT_THAT(ran.out, HasSubstr("is used by another program. Nothing was started"));
+    }
+    Served served(arguments());
+    EXPECT_THAT(served.said, testing::Not(HasSubstr("interrupted")));
+    const json status = served.status();
     EXPECT_TRUE(status["axes"][0]["position_valid"]);
     EXPECT_TRUE(status["alarms"].empty());
 }

@@ -43,6 +43,11 @@ Result<void> make_private(const std::string& path) {
     return fail(ErrorKind::io, fmt::format("The journal '{}' is not a file. Name another one.", path));
 }
 
+tl::unexpected<Error> not_written(const std::string& path, const std::string& why) {
+    return fail(ErrorKind::io,
+                fmt::format("The journal '{}' cannot be written: {}. Free the disk or name another file.", path, why));
+}
+
 }  // namespace
 
 /// Lock file beside the journal, released when the program ends for any reason.
@@ -82,6 +87,12 @@ Journal::Journal(std::string path, JournalSettings settings, std::unique_ptr<Fil
       reader_(std::move(reader)) {}
 
 Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, JournalSettings settings) {
+    MOTIONRACK_TRY(std::unique_ptr<Journal> journal, prepare(path, std::move(settings)));
+    MOTIONRACK_CHECK(journal->begin());
+    return journal;
+}
+
+Result<std::unique_ptr<Journal>> Journal::prepare(const std::string& path, JournalSettings settings) {
     MOTIONRACK_TRY(auto lock, FileLock::take(path));
     MOTIONRACK_CHECK(make_private(path));
     MOTIONRACK_TRY(Database writer, Database::open(path, Database::Use::write));
@@ -95,18 +106,26 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, JournalS
     std::unique_ptr<Journal> journal(new Journal(path, std::move(settings), std::move(lock),
                                                  std::make_unique<Database>(std::move(writer)),
                                                  std::make_unique<Database>(std::move(reader))));
-    if (Result<void> begun = journal->begin(); !begun)
-        return fail(ErrorKind::io,
-                    fmt::format("The journal '{}' cannot be written: {}. Free the disk or name another file.", path,
-                                begun.error().message));
-    journal->writer_->set_log_kept(false);
-    journal->files_ = std::make_unique<FileWatch>();
-    for (const char* end : {"", "-wal", ".lock"}) journal->files_->add(path + end);
-    journal->thread_ = std::thread([one = journal.get()] { one->work(); });
+    if (const Result<void> read = journal->read_file(); !read) return not_written(path, read.error().message);
     return journal;
 }
 
 Result<void> Journal::begin() {
+    if (const Result<void> begun = insert_run(); !begun) {
+        // A run that did not begin must not look like one without an end.
+        (void)writer_->run("ROLLBACK");
+        (void)writer_->run(fmt::format("DELETE FROM run WHERE number = {}", run_).c_str());
+        return not_written(path_, begun.error().message);
+    }
+    writer_->set_log_kept(false);
+    files_ = std::make_unique<FileWatch>();
+    for (const char* end : {"", "-wal", ".lock"}) files_->add(path_ + end);
+    thread_ = std::thread([this] { work(); });
+    return {};
+}
+
+/// Reads the state left by the previous run.
+Result<void> Journal::read_file() {
     const Database& file = *writer_;
     MOTIONRACK_CHECK(read_last_run());
     run_ = (before_ ? before_->run : 0) + 1;
@@ -117,7 +136,11 @@ Result<void> Journal::begin() {
     ChainEnd head = chain_head(file);
     last_number_ = head.number;
     last_link_ = std::move(head.link);
-    MOTIONRACK_CHECK(file.check_reads());
+    return file.check_reads();
+}
+
+Result<void> Journal::insert_run() {
+    const Database& file = *writer_;
     MOTIONRACK_CHECK(file.run(
         fmt::format("BEGIN IMMEDIATE; INSERT INTO run (number, begun_ms) VALUES ({}, {})", run_, utc_ms()).c_str()));
     MOTIONRACK_CHECK(remove_old_entries(file, max_entries));

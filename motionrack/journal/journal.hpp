@@ -78,10 +78,15 @@ class Journal {
     /// Callback for a written entry, on the writing thread.
     using Done = std::function<void(const Result<std::int64_t>& number)>;
 
-    /// Starts a run. Errors: io if the file cannot be created, is not a journal, or belongs to a running program; it is
-    /// left unchanged.
+    /// Reads the state left by the previous run; the run itself starts with begin(). Errors: io if the file cannot be
+    /// created, is not a journal, or belongs to a running program; it is left unchanged.
+    static Result<std::unique_ptr<Journal>> prepare(const std::string& path, JournalSettings settings = {});
+    /// Starts the run; call it once, when nothing else can prevent the start. Until then entries and kept values wait,
+    /// and are dropped if it never begins. Errors: io; the state left by the previous run remains.
+    Result<void> begin();
+    /// Prepares a journal and begins its run. Errors: those of both.
     static Result<std::unique_ptr<Journal>> open(const std::string& path, JournalSettings settings = {});
-    /// Writes the queued entries. Unless close() was called, the run has no regular end, as after a crash.
+    /// Writes the queued entries. Unless close() was called, a run that has begun has no regular end, as after a crash.
     ~Journal();
 
     /// Any thread, never blocks. `done` receives the entry's number once it is on disk, or an error (io).
@@ -117,7 +122,8 @@ class Journal {
     };
     Journal(std::string path, JournalSettings settings, std::unique_ptr<FileLock> lock,
             std::unique_ptr<Database> writer, std::unique_ptr<Database> reader);
-    Result<void> begin();
+    Result<void> read_file();
+    Result<void> insert_run();
     Result<void> read_last_run();
     Result<void> read_kept(LastRun& last);
     void work();

@@ -94,7 +94,11 @@ class Serving {
         if (!options_.journal.empty()) MOTIONRACK_CHECK(open_journal(config, settings.machine));
         settings.journal = journal_.get();
         MOTIONRACK_TRY(served_, server::ServedRack::open(config, std::move(settings)));
-        return {};
+        if (!journal_) return {};
+        // Last: a start that fails must not look like a run that was interrupted.
+        Result<void> begun = journal_->begin();
+        if (!begun) served_->stop();
+        return begun;
     }
 
     Result<void> open_journal(const rack::RackConfig& config, operate::MachineSettings& settings) {
@@ -102,7 +106,7 @@ class Serving {
         journal::JournalSettings book;
         book.max_bytes = options_.journal_megabytes * 1'000'000;
         book.on_quota = [this](const std::string& sentence) { write_line(sentence); };
-        MOTIONRACK_TRY(journal_, journal::Journal::open(options_.journal, std::move(book)));
+        MOTIONRACK_TRY(journal_, journal::Journal::prepare(options_.journal, std::move(book)));
         if (!journal_->before()) return {};
         operate::LastKnownPositions last = operate::read_last(*journal_->before(), config);
         if (!last.sentence.empty()) print_warning(last.sentence);

@@ -30,6 +30,43 @@ TEST_F(JournalFile, LeavesNeitherADescriptorNorALogBehind) {
     EXPECT_FALSE(fs::exists(path_ + "-wal")) << "all of it is in the file";
 }
 
+TEST_F(JournalFile, OfAStartThatFailsIsLeftAsThePreviousRunEnded) {
+    {
+        const auto journal = open();
+        journal->keep("machine", "X 7");
+        write(*journal, "state", "moving");
+        EXPECT_TRUE(journal->close());
+    }
+    {
+        const auto prepared = Journal::prepare(path_);
+        ASSERT_TRUE(prepared) << prepared.error().message;
+        (*prepared)->keep("machine", "X 8");
+        (*prepared)->write(Instant{}, "audit", "a stranger came");
+        EXPECT_TRUE((*prepared)->close()) << "no run is open";
+    }
+    const auto next = open();
+    ASSERT_TRUE(next && next->before());
+    EXPECT_TRUE(next->before()->clean);
+    EXPECT_THAT(next->before()->doubts, IsEmpty());
+    EXPECT_EQ(next->before()->kept.at("machine"), "X 7");
+    EXPECT_EQ(next->run(), 2);
+    EXPECT_EQ(all_entries().size(), 1u);
+}
+
+TEST_F(JournalFile, WritesTheEntriesThatWaitedForItsRun) {
+    {
+        const auto journal = Journal::prepare(path_);
+        ASSERT_TRUE(journal) << journal.error().message;
+        (*journal)->write(Instant{}, "audit", "a stranger came");
+        (*journal)->keep("machine", "X 8");
+        EXPECT_THAT(all_entries(), IsEmpty());
+        ASSERT_TRUE((*journal)->begin());
+        EXPECT_TRUE((*journal)->close());
+    }
+    EXPECT_EQ(all_entries().at(1), "a stranger came");
+    EXPECT_EQ(open()->before()->kept.at("machine"), "X 8");
+}
+
 TEST_F(JournalFile, ThatIsClosedRefusesAnEntryAtOnce) {
     const auto journal = open();
     EXPECT_TRUE(journal->close());
