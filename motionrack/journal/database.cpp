@@ -45,7 +45,7 @@ Result<Database> Database::open(const std::string& path, Use use) {
     Database database(one);
     if (code != SQLITE_OK)
         return fail(ErrorKind::io, fmt::format("The journal '{}' cannot be opened: {}.", path, sqlite3_errstr(code)));
-    sqlite3_busy_timeout(one, 5000);
+    sqlite3_busy_timeout(one, static_cast<int>(std::chrono::milliseconds(busy_timeout).count()));
     database.set_log_kept(true);
     return database;
 }

@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <motionrack/base/result.hpp>
@@ -37,6 +38,8 @@ class Statement {
 class Database {
   public:
     enum class Use { write, read };
+    /// How long an access waits for other programs that use the file.
+    static constexpr std::chrono::seconds busy_timeout{5};
     /// Errors: io, with the SQLite message.
     static Result<Database> open(const std::string& path, Use use);
     sqlite3* get() const { return database_.get(); }

@@ -111,11 +111,11 @@ Result<std::unique_ptr<Journal>> Journal::prepare(const std::string& path, Journ
 }
 
 Result<void> Journal::begin() {
-    if (const Result<void> begun = insert_run(); !begun) {
+    if (Result<void> begun = insert_run(); !begun) {
         // A run that did not begin must not look like one without an end.
         (void)writer_->run("ROLLBACK");
         (void)writer_->run(fmt::format("DELETE FROM run WHERE number = {}", run_).c_str());
-        return not_written(path_, begun.error().message);
+        return begun;
     }
     writer_->set_log_kept(false);
     files_ = std::make_unique<FileWatch>();
@@ -141,12 +141,19 @@ Result<void> Journal::read_file() {
 
 Result<void> Journal::insert_run() {
     const Database& file = *writer_;
-    MOTIONRACK_CHECK(file.run(
-        fmt::format("BEGIN IMMEDIATE; INSERT INTO run (number, begun_ms) VALUES ({}, {})", run_, utc_ms()).c_str()));
-    MOTIONRACK_CHECK(remove_old_entries(file, max_entries));
-    MOTIONRACK_CHECK(file.run("COMMIT"));
+    Result<void> inserted = file.run(
+        fmt::format("BEGIN IMMEDIATE; INSERT INTO run (number, begun_ms) VALUES ({}, {})", run_, utc_ms()).c_str());
+    if (inserted) inserted = remove_old_entries(file, max_entries);
+    if (inserted) inserted = file.run("COMMIT");
+    if (!inserted) return not_written(path_, inserted.error().message);
     // The file itself shows the new run, so that it cannot pass for the clean end of the previous one without its -wal.
-    return file.run("PRAGMA wal_checkpoint(TRUNCATE)");
+    Statement merge(file.get(), "PRAGMA wal_checkpoint(TRUNCATE)");
+    if (!merge.row()) return not_written(path_, file.what());
+    if (merge.number(0) == 0) return {};
+    return fail(ErrorKind::io,
+                fmt::format("The journal '{}' was read by another program for more than {} s. Nothing was started; "
+                            "close that program, then start again.",
+                            path_, Database::busy_timeout.count()));
 }
 
 /// Reads how the previous run ended and its kept values, as far as their seals match.

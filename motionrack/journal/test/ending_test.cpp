@@ -53,6 +53,29 @@ TEST_F(JournalFile, OfAStartThatFailsIsLeftAsThePreviousRunEnded) {
     EXPECT_EQ(all_entries().size(), 1u);
 }
 
+/// The log cannot be merged into the file then, and the file alone would still show the previous run's end.
+TEST_F(JournalFile, ThatAnotherProgramReadsIsRefusedAndKeepsTheEndOfItsLastRun) {
+    {
+        const auto journal = open();
+        journal->keep("machine", "X 7");
+        EXPECT_TRUE(journal->close());
+    }
+    sqlite3* other = nullptr;
+    ASSERT_EQ(sqlite3_open(path_.c_str(), &other), SQLITE_OK);
+    ASSERT_EQ(sqlite3_exec(other, "BEGIN; SELECT count(*) FROM run", nullptr, nullptr, nullptr), SQLITE_OK);
+    const auto refused = Journal::open(path_);
+    sqlite3_close(other);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message,
+                testing::AllOf(HasSubstr("was read by another program for more than 5 s. Nothing was started"),
+                               HasSubstr("close that program, then start again")));
+    const auto next = open();
+    ASSERT_TRUE(next && next->before());
+    EXPECT_TRUE(next->before()->clean);
+    EXPECT_EQ(next->before()->kept.at("machine"), "X 7");
+    EXPECT_EQ(next->run(), 2);
+}
+
 TEST_F(JournalFile, WritesTheEntriesThatWaitedForItsRun) {
     {
         const auto journal = Journal::prepare(path_);
