@@ -226,7 +226,7 @@ Result<void> Session::start_trace(const std::string& path, std::string_view sign
         settings.signals.emplace_back(signals.substr(at, end - at));
         at = end;
     }
-    if (recorder_ && !recorder_->can_end_again()) recorder_.reset();  // a lost recording no longer blocks its name
+    if (recorder_ && !recorder_->can_end_again()) drop_recorder();  // a lost recording no longer blocks its name
     MOTIONRACK_TRY(recorder_, Recorder::create(rack_, settings));
     next_poll_ = now();
     return {};
@@ -241,9 +241,13 @@ Result<void> Session::stop_trace() {
                                      : " The recording is lost; start another one.";
         return ended;
     }
+    drop_recorder();
+    return ended;
+}
+
+void Session::drop_recorder() {
     recorder_.reset();
     next_poll_ = never;
-    return ended;
 }
 
 }  // namespace motionrack::rack

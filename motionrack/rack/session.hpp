@@ -145,6 +145,7 @@ class Session {
     Result<Duration> time_of(std::uint64_t ns) const;
     void run_to(Instant until);
     void poll();
+    void drop_recorder();
     void between();
     void report_conditions();
     std::uint64_t condition_count() const;
@@ -164,7 +165,7 @@ class Session {
     WireAccess context_;
     std::unique_ptr<Recorder> recorder_;
     Duration trace_unit_{0};
-    Instant next_poll_ = never;  // next sampling of the registers by the recorder
+    Instant next_poll_ = never;  // next sampling of the registers by the recorder; never without a recorder
 };
 
 }  // namespace motionrack::rack

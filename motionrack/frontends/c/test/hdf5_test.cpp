@@ -126,6 +126,21 @@ TEST(CHdf5, AFullDiskAndAMissingFolderAreReported) {
     std::filesystem::remove(csv);
 }
 
+TEST(CHdf5, ALostRecordingAndARefusedNextOneLeaveTheRackRunning) {
+    const std::filesystem::path folder = temporary("gone");
+    std::filesystem::create_directory(folder);
+    World world;
+    ASSERT_EQ(mr_trace_start(world, (folder / "a.h5").c_str(), "c1.xlp"), MR_OK) << mr_last_error();
+    world.pass(1'000'000);
+    std::filesystem::remove_all(folder);
+    EXPECT_EQ(mr_trace_stop(world), MR_IO);
+    EXPECT_THAT(mr_last_error(), HasSubstr("The recording is lost"));
+    EXPECT_EQ(mr_trace_start(world, temporary("b.csv").c_str(), "Q.*"), MR_BAD_CALL);
+    EXPECT_EQ(mr_trace_stop(world), MR_REFUSED) << "the lost one was discarded";
+    world.pass(10'000'000);
+    EXPECT_EQ(mr_now_ns(world), 11'000'000u);
+}
+
 TEST(CHdf5, AFullDiskAtTheEndIsReportedAndTheFileDoesNotGetItsName) {
     World world;
     world.set_up(1, 4000);
