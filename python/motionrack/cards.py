@@ -116,7 +116,8 @@ class Card(MappedCard):
         return _core.view(self._world, self._name, clearing)
 
     def wait_interrupt(self, timeout: float) -> None:
-        """Waits until its interrupt line is active; Timeout after ``timeout`` s."""
+        """Waits until its interrupt line is active; Timeout after ``timeout`` s (0 to 9e8). Refused
+        beyond that."""
         if not _core.wait_interrupt(self._world, self._name, ticks_of(timeout)):
             raise Timeout(f"Card {self._name}: timed out after {timeout:g} s: no interrupt.")
 

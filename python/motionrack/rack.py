@@ -263,7 +263,8 @@ class Rack:
 
     def home(self, axes: str = "", *, type: int | None = None, timeout: float = 3600.0) -> Homing:
         """Homes axes: ``"XY"``; ``""``: every axis with a home switch. ``type``: homing method 1 to 4 instead of the
-        rack file's; ``timeout`` in s of each group. A failure is the outcome's ``error``."""
+        rack file's; ``timeout`` in s of each group, 0 to 9e8; Refused beyond that. A failure is the
+        outcome's ``error``."""
         return homing_of(*_core.home(self._world, axes, type, ticks_of(timeout)))
 
     # ---- recordings ----

@@ -170,9 +170,10 @@ void bind_cards(py::module_& m) {
     m.def(
         "wait_interrupt",
         [](RackHandle& world, const std::string& card, std::int64_t timeout) {
+            const Duration time = timeout_of(timeout);
             return run_exclusive(world, [&]() -> Result<bool> {
                 MOTIONRACK_TRY(rack::Card * on, rack::card_named(world.running(), card));
-                return on->host().wait(ticks(timeout));
+                return on->host().wait(time);
             });
         },
         py::arg("world"), py::arg("card"), py::arg("ticks"));

@@ -37,7 +37,7 @@ void bind_homing(py::module_& m) {
             rack::HomingSettings settings;
             settings.axes = axes;
             settings.method = type;
-            settings.timeout = ticks(timeout);
+            settings.timeout = timeout_of(timeout);
             return reported(run_exclusive(world, [&] { return world.home(settings); }));
         },
         py::arg("world"), py::arg("axes"), py::arg("type"), py::arg("ticks"));

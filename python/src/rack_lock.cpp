@@ -46,6 +46,13 @@ RackLock::~RackLock() {
     if (mine_) host_.owner = std::thread::id{};
 }
 
+Duration timeout_of(std::int64_t count) {
+    if (count < 0)
+        refuse(fmt::format("The time-out is {:.9g} s; it must be 0 to 9e8 s. Nothing was done.",
+                           to_seconds(Duration{count})));
+    return Duration{count};
+}
+
 Duration duration(double seconds) {
     if (std::isinf(seconds) && seconds > 0) return never;
     if (!(seconds >= 0 && seconds <= 9e8))

@@ -66,6 +66,8 @@ void end_call(Host& host);
 inline Duration ticks(std::int64_t count) {
     return Duration{count};
 }
+/// As above, for a time-out. Throws refused below 0.
+Duration timeout_of(std::int64_t count);
 /// Converts seconds from Python, 0 to 9e8; infinity: never. Throws refused beyond that.
 Duration duration(double seconds);
 

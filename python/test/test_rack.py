@@ -140,6 +140,16 @@ class Time(unittest.TestCase):
         with self.assertRaises(Timeout):
             card.wait_interrupt(0.01)
 
+    def test_impossible_time_outs_are_rejected(self) -> None:
+        rack = Rack.template("router")
+        for timeout in (-1.0, -1, -1e-9, float("nan"), float("inf"), 1e12):
+            with self.subTest(timeout):
+                with self.assertRaises(Refused):
+                    rack.cards["motion"].wait_interrupt(timeout)
+                with self.assertRaises(Refused):
+                    rack.home(timeout=timeout)
+        self.assertEqual(rack.ticks, 0)
+
 
 class Registers(unittest.TestCase):
     def test_peeking_has_no_side_effect_and_reading_has(self) -> None:
