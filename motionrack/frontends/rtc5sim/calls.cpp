@@ -21,7 +21,8 @@ namespace {
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 thread_local std::string last_sentence;
 constexpr UINT max_cards = 16;
-constexpr std::uint64_t ns_per_tick = 10'000;
+constexpr std::uint64_t ns_per_tick = 1'000 * us_per_tick;
+constexpr auto max_rack_ticks = static_cast<std::int64_t>(rack::Session::max_ns / ns_per_tick);  ///< limit of a call
 constexpr std::int64_t end_of_time =
     std::numeric_limits<std::int64_t>::max() / 1000;  ///< ticks; leaves room for laser instants
 
@@ -134,7 +135,16 @@ Result<std::int64_t> CardTable::tick() {
 
 Result<void> CardTable::pass(std::int64_t ticks) {
     MOTIONRACK_TRY(const std::int64_t present, tick());
-    if (ticks > end_of_time - present) return fail(ErrorKind::refused, "the end of time is reached. Nothing was run.");
+    if (rack_ && ticks > max_rack_ticks)
+        return fail(
+            ErrorKind::refused,
+            fmt::format("the time is {} us; on the cards of a rack it must be 0 to {} us. Nothing was run; call "
+                        "several times.",
+                        ticks * us_per_tick, max_rack_ticks * us_per_tick));
+    if (ticks > end_of_time - present)
+        return fail(ErrorKind::refused,
+                    fmt::format("the time is {} us; until the end of time it must be 0 to {} us. Nothing was run.",
+                                ticks * us_per_tick, (end_of_time - present) * us_per_tick));
     const Inside inside(samples != nullptr);
     if (rack_) return pass_rack(ticks);
     for (const auto& card : cards_) {

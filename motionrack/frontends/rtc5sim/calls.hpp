@@ -18,6 +18,8 @@
 
 namespace motionrack::rtc5sim {
 
+inline constexpr std::int64_t us_per_tick = 10;  ///< duration of a tick of the cards
+
 /// Encoder of a conveyor with a constant count rate, read by the board's counters.
 class Belt final : public rtc5::Inputs {
   public:

@@ -13,7 +13,6 @@ namespace rtc5 = motionrack::rtc5;
 
 namespace {
 
-constexpr std::int64_t us_per_tick = 10;
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): C functions keep it for each thread
 thread_local std::string info_text, note_text;
 

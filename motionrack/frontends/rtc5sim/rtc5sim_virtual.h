@@ -35,7 +35,7 @@ RTC5_API int rtc5sim_part_set(const char* part_dot_quantity, double value);
 /* Sets the duration of a query from now on: 0 .. 1,000,000,000 us, a multiple of 10. */
 RTC5_API int rtc5sim_question_us(int64_t us);
 
-/* Advances all cards by us, a multiple of 10 us. Returns 0, or -1. */
+/* Advances all cards by us, a multiple of 10 us; those of a rack by 1,000,000,000,000 us at most. Returns 0, or -1. */
 RTC5_API int rtc5sim_advance_us(int64_t us);
 
 /* Advances all cards until no list runs, nothing moves and no start is pending, at most by max_us. Returns 1 at

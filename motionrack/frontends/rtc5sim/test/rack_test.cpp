@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <motionrack/frontends/rtc5sim/test/session.hpp>
+#include <string>
 
 namespace motionrack::rtc5sim_test {
 namespace {
@@ -60,6 +63,19 @@ TEST(Rtc5simRack, AJobRunsOnTheWiresAndMarksThePart) {
         EXPECT_EQ(session.card[0].x.size(), session.card[1].x.size()) << "time is one for all cards";
         EXPECT_NEAR(*std::max_element(session.card[0].y.begin(), session.card[0].y.end()), 51'840, 1);
     }
+}
+
+TEST(Rtc5simRack, ATimeBeyondTheLimitOfACallIsRefused) {
+    const Session session;
+    ASSERT_EQ(rtc5sim_open(line), 0) << rtc5sim_last_error();
+    for (const std::int64_t us :
+         {std::int64_t{1'000'000'000'010}, std::int64_t{18'446'744'073'709'560},  // 2^64 ns and some
+          std::numeric_limits<std::int64_t>::max() / 10 * 10}) {
+        EXPECT_EQ(rtc5sim_advance_us(us), -1) << us;
+        EXPECT_THAT(rtc5sim_last_error(), HasSubstr(std::to_string(us) + " us; on the cards of a rack it must be 0 to "
+                                                                         "1000000000000 us"));
+    }
+    EXPECT_EQ(rtc5sim_now_us(), 0);
 }
 
 TEST(Rtc5simRack, TheEncoderFollowsTheBeltAndPartsStartTheList) {
