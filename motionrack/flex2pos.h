@@ -43,17 +43,17 @@ enum { Flex_Ok = 0, Flex_ErrCfg = 1, Flex_ErrDevice = 2, Flex_ErrProject = 3 };
 
 /* Selects the card at the base address, loads its array and checks the project. Uses the image of the card in the rack
  * file, or else the built-in image. Advances the rack's virtual time by seconds. Returns the result, which Result
- * keeps.
- */
+ * keeps; in a call-back of the rack Flex_ErrDevice, and nothing is done. */
 MR_API int flex2pos_Init(flex2pos* flex, uint16_t Addr);
 
 /* First step of an Init with a custom image: sets the base address only, as the source's object tIOFlex02 does. Result
- * is Flex_ErrDevice until Configure. MR_BAD_CALL (null). */
+ * is Flex_ErrDevice until Configure. MR_BAD_CALL (null), MR_REFUSED (called by a call-back of the rack). */
 MR_API int flex2pos_set_base_address(flex2pos* flex, uint16_t Addr);
 
 /* Second step: loads this image, made by flex2pos_image_make or `motionrack image make`; NULL: the image of Init.
  * Returns the result, which Result keeps: Flex_ErrCfg if the image is truncated, damaged or not an image,
- * Flex_ErrProject if it has another project or version. */
+ * Flex_ErrProject if it has another project or version. In a call-back of the rack Flex_ErrDevice, and nothing is
+ * done. */
 MR_API int flex2pos_Configure(flex2pos* flex, const uint8_t* image, size_t size);
 
 /* Return the last result, and its sentence (empty for Flex_Ok), valid until the next call with this object. */

@@ -75,15 +75,18 @@ void flex2pos_close(flex2pos* flex) {
 
 int flex2pos_Init(flex2pos* flex, uint16_t Addr) {
     if (flex == nullptr) return failed(MR_BAD_CALL, no_object), Flex_ErrDevice;
+    int outcome = Flex_ErrDevice;  // unless the call was made
     with(flex, [&](io::Flex2Pos& library) {
         library.use_image(motionrack::rack::ioflex02_image_at(flex->config, Addr));
         library.Init(Addr);
+        outcome = library.Result;
     });
-    return flex->library.Result;
+    return outcome;
 }
 
 int flex2pos_set_base_address(flex2pos* flex, uint16_t Addr) {
     return guarded({{flex, no_object}}, [&]() -> motionrack::Result<void> {
+        MOTIONRACK_CHECK(flex->session.check_free());
         flex->library.Flex02::Init(Addr);
         return {};
     });
@@ -91,12 +94,17 @@ int flex2pos_set_base_address(flex2pos* flex, uint16_t Addr) {
 
 int flex2pos_Configure(flex2pos* flex, const uint8_t* image, size_t size) {
     if (flex == nullptr) return failed(MR_BAD_CALL, no_object), Flex_ErrDevice;
+    int outcome = Flex_ErrDevice;  // unless the call was made
     with(flex, [&](io::Flex2Pos& library) {
-        if (image != nullptr) return library.Configure({image, size});
-        const auto own = motionrack::rack::ioflex02_image_at(flex->config, library.base_address());
-        library.Configure(own.empty() ? io::position_image() : own);
+        if (image != nullptr) {
+            library.Configure({image, size});
+        } else {
+            const auto own = motionrack::rack::ioflex02_image_at(flex->config, library.base_address());
+            library.Configure(own.empty() ? io::position_image() : own);
+        }
+        outcome = library.Result;
     });
-    return flex->library.Result;
+    return outcome;
 }
 
 int flex2pos_Result(const flex2pos* flex) {
