@@ -35,7 +35,7 @@ static const char cVer[] = "02.51, 07.08.2003";
  * *flex is NULL. MR_BAD_CALL (null; the rack has no such card). */
 MR_API int flex2pos_open(mr_rack* rack, flex2pos** flex);
 
-/* Closes and frees the object. Has no effect for NULL. */
+/* Closes and frees the object. Has no effect for NULL or in a call-back during a call with this object. */
 MR_API void flex2pos_close(flex2pos* flex);
 
 /* Results of Init and Configure. The names are the source's; the numbers are Motionrack's. */

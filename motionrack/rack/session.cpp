@@ -96,8 +96,7 @@ Result<std::uint32_t> Session::read(std::string_view card, int bits, std::uint32
     MOTIONRACK_TRY(Card * on, card_for_access(rack_, card, bits, address, false));
     MOTIONRACK_CHECK(check_time_left(milliseconds(1)));
     const std::uint32_t value = on->bus_read(bits, address);
-    poll();
-    report_conditions();
+    after_access();
     return value;
 }
 
@@ -106,8 +105,7 @@ Result<void> Session::write(std::string_view card, int bits, std::uint32_t addre
     MOTIONRACK_TRY(Card * on, card_for_access(rack_, card, bits, address, true));
     MOTIONRACK_CHECK(check_time_left(milliseconds(1)));
     on->bus_write(bits, address, value);
-    poll();
-    report_conditions();
+    after_access();
     return {};
 }
 

@@ -74,6 +74,12 @@ class Session {
     Result<std::uint32_t> read(std::string_view card, int bits, std::uint32_t address);
     Result<void> write(std::string_view card, int bits, std::uint32_t address, std::uint32_t value);
 
+    /// For a driver with a card's own port, after each access: samples and reports as read() and write() do.
+    void after_access() {
+        poll();
+        report_conditions();
+    }
+
     /// Advances virtual time until the card's interrupt is active, by `ns` nanoseconds at most. Returns whether it is
     /// active. Errors: invalid_input (unknown card), those of advance.
     Result<bool> wait(std::string_view card, std::uint64_t ns);

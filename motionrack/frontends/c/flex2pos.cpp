@@ -6,7 +6,10 @@
 #include <array>
 #include <motionrack/cards/ioflex02/driver/flex2pos.hpp>
 #include <motionrack/frontends/c/calls.hpp>
+#include <motionrack/frontends/c/session_host.hpp>
 #include <motionrack/rack/ioflex02_card.hpp>
+#include <motionrack/rack/raised_flag.hpp>
+#include <type_traits>
 #include <vector>
 
 namespace io = motionrack::ioflex02;
@@ -20,16 +23,45 @@ static_assert(cNop == static_cast<int>(io::cNop) && cRes == static_cast<int>(io:
 static_assert(cVerNo == int{io::cVerNo} && sizeof cVer == sizeof io::cVer);
 static_assert(flex2pos_payload == io::min_payload);
 
+namespace motionrack::c {
+
+/// The bus of the IOFLEX02 cards, on which a program may also access addresses without a card.
+class FlexPort final : public RegisterPort, public SessionHost {
+  public:
+    FlexPort(rack::Session& session, rack::Card& card) : SessionHost(session, card.name()), port_(*card.port()) {}
+    void write(std::uint32_t offset, std::uint16_t value) override {
+        port_.write(offset, value);
+        session_.after_access();
+    }
+    std::uint16_t read(std::uint32_t offset) override {
+        const std::uint16_t value = port_.read(offset);
+        session_.after_access();
+        return value;
+    }
+
+  private:
+    RegisterPort& port_;
+};
+
+}  // namespace motionrack::c
+
 struct flex2pos {
-    flex2pos(motionrack::rack::Session& of, motionrack::sim::VirtualPort& port)
-        : session(of), config(of.rack().config()), library(port, port) {}
+    flex2pos(motionrack::rack::Session& of, motionrack::rack::Card& card)
+        : session(of), config(of.rack().config()), port(of, card), library(port, port) {}
     const motionrack::rack::Session& session;    ///< must outlive the object
     const motionrack::rack::RackConfig& config;  ///< configuration of its rack
+    FlexPort port;
     io::Flex2Pos library;
+    bool is_running = false;  ///< the library is running, perhaps around a call-back of the rack
 };
 
 namespace {
 constexpr const char* no_object = "The object is a null pointer; open one with flex2pos_open. Nothing was done.";
+
+/// Stores the sentence of an error during a call, if any.
+void report(const FlexPort& port) {
+    if (port.error()) failed(code_of(port.error()->kind), port.error()->message);
+}
 
 /// Returns the value of `call`. Returns 0 and stores the error for a null object, inside a callback of its rack, or if
 /// out of memory.
@@ -45,7 +77,16 @@ auto with(flex2pos* flex, Call call) noexcept -> decltype(call(flex->library)) {
             failed(MR_REFUSED, free.error().message);
             return Value();
         }
-        return call(flex->library);
+        const motionrack::rack::RaisedFlag running(flex->is_running);
+        flex->port.forget_error();
+        if constexpr (std::is_void_v<Value>) {
+            call(flex->library);
+            report(flex->port);
+        } else {
+            const Value value = call(flex->library);
+            report(flex->port);
+            return value;
+        }
     } catch (...) {
         failed(MR_INTERNAL, "Not enough memory; the call was not finished.");
         return Value();
@@ -61,7 +102,7 @@ int flex2pos_open(mr_rack* rack, flex2pos** flex) {
                    [&]() -> motionrack::Result<void> {
                        for (const auto& card : rack->session->rack().cards()) {
                            if (card->map().name != io::card_map().name) continue;
-                           *flex = new flex2pos(*rack->session, *card->port());
+                           *flex = new flex2pos(*rack->session, *card);
                            return {};
                        }
                        return motionrack::fail(motionrack::ErrorKind::invalid_input,
@@ -70,6 +111,10 @@ int flex2pos_open(mr_rack* rack, flex2pos** flex) {
 }
 
 void flex2pos_close(flex2pos* flex) {
+    if (flex != nullptr && flex->is_running) {
+        failed(MR_REFUSED, "The object is running a call, around this call-back. It was not closed; return first.");
+        return;
+    }
     delete flex;
 }
 

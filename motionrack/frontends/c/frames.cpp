@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <motionrack/cards/grating_bus/driver/grating_card.hpp>
 #include <motionrack/frontends/c/calls.hpp>
+#include <motionrack/frontends/c/session_host.hpp>
 #include <motionrack/rack/bus_access.hpp>
-#include <optional>
 
 namespace {
 
@@ -19,37 +19,14 @@ static_assert(MR_MAX_SCALES == gb::max_scales && sizeof(mr_frame::counts) == siz
 constexpr const char* no_frame = "The pointer to the frame is null. Nothing was done.";
 
 /// Registers and interrupt of a card as seen by a program with the rack; stores the first error.
-class SessionPort final : public RegisterPort, public Interrupt {
+class SessionPort final : public RegisterPort, public SessionHost {
   public:
-    SessionPort(rack::Session& session, std::string_view card) : session_(session), card_(card) {}
-
+    using SessionHost::SessionHost;
     void write(std::uint32_t offset, std::uint16_t value) override { keep(session_.write(card_, 16, offset, value)); }
     std::uint16_t read(std::uint32_t offset) override {
         const auto value = keep(session_.read(card_, 16, offset));
         return value ? static_cast<std::uint16_t>(*value) : std::uint16_t{0xFFFF};
     }
-    bool wait(Duration timeout) override {
-        const auto active = keep(session_.wait(card_, static_cast<std::uint64_t>(timeout.count() + 9) / 10));
-        return active && *active;
-    }
-    void pass(Duration duration) override {
-        keep(session_.advance(static_cast<std::uint64_t>(duration.count() + 9) / 10));
-    }
-    Instant now() const override { return session_.rack().kernel().now(); }
-    /// Stops waiting after an error.
-    bool stop_requested() const override { return error_.has_value(); }
-    const std::optional<Error>& error() const { return error_; }
-
-  private:
-    template <class Value>
-    Result<Value> keep(Result<Value> result) {
-        if (!result && !error_) error_ = result.error();
-        return result;
-    }
-
-    rack::Session& session_;
-    std::string_view card_;
-    std::optional<Error> error_;
 };
 
 void copy(const gb::Frame& from, mr_frame& to) {
