@@ -124,7 +124,7 @@ void RackHandle::service_run() {
             const Duration period = recorder_->period();
             next_register_look_ = (now() / period + 1) * period;
         }
-        recorder_->drain();
+        recorder_->drain_settled();
     }
     if (look_) look_();
 }

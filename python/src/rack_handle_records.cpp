@@ -53,7 +53,7 @@ Result<void> RackHandle::begin_waves(const std::string& path, const std::vector<
                     "A recording of waves is running and continues. Nothing was started. Stop it first.");
     MOTIONRACK_TRY(const rack::WaveFormat format, rack::wave_format(path));
     rack::RecorderSettings settings;
-    settings.sink = rack::wave_sink({path, format});
+    settings.sink = rack::wave_sink({path, format, Duration{0}, MOTIONRACK_VERSION});
     settings.tap = tap_.get();
     settings.signals = signals;
     MOTIONRACK_TRY(recorder_, rack::Recorder::create(*rack_, settings));

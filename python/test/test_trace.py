@@ -117,6 +117,29 @@ class Recordings(unittest.TestCase):
             with self.assertRaises(Refused):
                 rack.waves(f"{folder}/a.txt")
 
+    def test_waves_do_not_depend_on_the_division_of_time(self) -> None:
+        texts = []
+        with tempfile.TemporaryDirectory() as folder:
+            for step_us in (21_000, 3):
+                rack = Rack.from_text('card.c1 = "mcx314"')
+                card = rack.cards["c1"]
+                for axis, speed in ((1, 4000), (2, 3900)):  # pulses at every distance from those of the other axis
+                    for code, value in ((0, 800_000), (2, 400), (4, speed), (5, speed), (6, 100_000), (0x20, 0)):
+                        card.WR7, card.WR6, card.WR0 = value >> 16, value & 0xFFFF, axis << 8 | code
+                with rack.waves(f"{folder}/a.csv", "*.step"):
+                    for _ in range(21_000 // step_us):
+                        rack.advance(us=step_us)
+                texts.append(Path(f"{folder}/a.csv").read_text(encoding="utf-8"))
+        self.assertGreater(texts[0].count(",X.step,1"), 700)
+        self.assertGreater(texts[0].count(",Y.step,1"), 700)
+        self.assertEqual(texts[0], texts[1])
+
+    def test_a_recording_of_waves_has_the_version_that_wrote_it(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            with moving().waves(f"{folder}/a.h5", "X.*"):
+                pass
+            self.assertIn(f"motionrack {motionrack.__version__}".encode(), Path(f"{folder}/a.h5").read_bytes())
+
     @unittest.skipUnless(shutil.which("sigrok-cli") and shutil.which("vcd2fst"), "sigrok-cli or gtkwave is missing")
     def test_waves_are_read_by_sigrok_and_vcd2fst(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
