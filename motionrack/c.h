@@ -380,8 +380,8 @@ MR_API int mr_trace_start(mr_rack* rack, const char* path, const char* signals);
 MR_API int mr_trace_unit(mr_rack* rack, double ns);
 
 /* Ends the recording and completes its file. MR_BAD_CALL, MR_REFUSED (no recording runs), MR_IO (the file could not be
- * written completely: the recording continues; free disk space and call again, or start another recording. The content
- * of an *.h5 file is lost then: start another). */
+ * written completely: the recording continues; free disk space and call again, or start another recording. A file of
+ * which changes are missing, and any *.h5 file, is lost then: start another). */
 MR_API int mr_trace_stop(mr_rack* rack);
 
 #ifdef __cplusplus

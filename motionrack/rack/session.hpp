@@ -137,7 +137,7 @@ class Session {
     /// Returns true while a recording is active or could not be ended.
     bool is_recording() const { return recorder_ != nullptr; }
     /// Ends the recording. Errors: refused (no recording); io: the recording continues and keeps the unwritten data for
-    /// a retry; an .h5 file is lost.
+    /// a retry; an .h5 file, and one of which more was dropped than a buffer keeps, is lost.
     Result<void> stop_trace();
 
   private:

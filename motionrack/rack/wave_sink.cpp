@@ -36,6 +36,7 @@ class VcdSink final : public ChangeSink {
             writer_.change_real(ids_[index], channel.shown(value), at);
     }
     Result<void> close(Instant end) override { return writer_.close(end); }
+    bool can_end_again() const override { return !writer_.gave_up(); }
 
   private:
     trace::VcdWriter::Id declare(const Channel& channel) {
@@ -64,6 +65,7 @@ class CsvSink final : public ChangeSink {
         write(column, at);
     }
     Result<void> close(Instant) override { return writer_.close(); }
+    bool can_end_again() const override { return !writer_.gave_up(); }
 
   private:
     struct Column {

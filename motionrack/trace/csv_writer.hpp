@@ -47,6 +47,8 @@ class CsvWriter {
     /// Errors: io, the first error; the written part is kept under the name in the sentence. If only the end is
     /// missing, writing can continue and close() can be called again.
     Result<void> close();
+    /// Returns true after a write error with data omitted: the file cannot be completed.
+    bool gave_up() const { return gave_up_; }
 
   private:
     CsvWriter() = default;

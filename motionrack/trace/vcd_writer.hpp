@@ -72,6 +72,8 @@ class VcdWriter {
     /// Errors: io, the first error; if only the end is missing, writing can continue and close() can be called again.
     /// If a writer is destroyed without close(), its changes stay in `NAME.incomplete`.
     Result<void> close(Instant end);
+    /// Returns true after a write error with data omitted: the file cannot be completed.
+    bool gave_up() const { return gave_up_; }
 
   private:
     enum class VariableKind : std::uint8_t { wire, vector, real };

@@ -64,6 +64,27 @@ TEST(CRack, ARecordingThatCannotEndContinuesAndCompletesOnceTheDiskHasSpace) {
     EXPECT_EQ(without_empty_times(recorded(vcd, true)), without_empty_times(recorded(vcd, false)));
 }
 
+TEST(CRack, ARecordingOfWhichChangesAreMissingIsLost) {
+    for (const char* name : {"l.csv", "l.vcd"}) {
+        const std::string path = temporary(name);
+        World world;
+        world.set_up(1, 4000);
+        world.command(1, 0x06, 50'000);
+        ASSERT_EQ(mr_trace_start(world, path.c_str(), "X.step"), MR_OK) << mr_last_error();
+        world.write(0x00, 0x0120);
+        {
+            const FullDisk disk(20'000);
+            world.pass(1'500'000'000);
+        }
+        EXPECT_EQ(mr_trace_stop(world), MR_IO) << "more than the buffer keeps: room comes too late";
+        EXPECT_THAT(mr_last_error(), HasSubstr("The recording is lost")) << name;
+        EXPECT_FALSE(std::filesystem::exists(path));
+        ASSERT_EQ(mr_trace_start(world, path.c_str(), "X.step"), MR_OK) << mr_last_error();
+        EXPECT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
+        std::filesystem::remove(path);
+    }
+}
+
 TEST(CRack, ARecordingThatCannotBeWrittenIsReplacedByAnother) {
     const std::string full = temporary("g.vcd"), csv = temporary("g.csv");
     if (::access("/dev/full", W_OK) != 0) GTEST_SKIP() << "this system has no /dev/full";
