@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <motionrack/base/trig.hpp>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/move_reader.hpp>
 #include <motionrack/control/gcode/plane_point.hpp>
+#include <motionrack/control/geometry.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -167,7 +169,9 @@ bool MoveReader::arc_within_limits(PlanePoint start, PlanePoint end, PlanePoint 
     bool inside = true;
     for (int i = 0; i < 4; ++i) inside = inside && travel().contains(axis[i], extremes[i]);
     if (inside) return true;
-    const bool full = std::abs(turns) > 1 || (from.first == to.first && from.second == to.second);
+    // As geometry_of() decides it: a rounded end may have the direction of the start, but another radius.
+    const double angle = motionrack::atan2(cross(from, to), dot(from, to));
+    const bool full = std::abs(turns) > 1 || std::fabs(angle) < min_sweep_rad;
     const auto passed = full ? std::array<bool, 4>{true, true, true, true} : extremes_passed(from, to, turns > 0);
     for (int i = 0; i < 4; ++i) {
         if (passed[i] && !reach(axis[i], extremes[i], error_column())) {

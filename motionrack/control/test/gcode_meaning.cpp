@@ -162,6 +162,12 @@ TEST(GcodeReader, ArcsMayReachTheTravelLimitsButNotExceedThem) {
     EXPECT_FALSE(read("G0 X499 Y0\nG3 X489 Y10 Z1 I-10 J-1.1 F9").problems.empty());
 }
 
+TEST(GcodeReader, AFullTurnWhoseEndIsRoundedStaysWithinTheTravel) {
+    EXPECT_TRUE(read("G0 X-480\nG2 X-479.996 I-9 F9").problems.empty());
+    for (const char* turn : {"G2 X-489.996 I-10 F9", "G3 X-490.004 I-10 F9", "G2 X-489.996 I-10 P2 F9"})
+        EXPECT_FALSE(read(std::string("G0 X-490\n") + turn).problems.empty()) << turn;
+}
+
 TEST(GcodeReader, AnArcWithinTheRadiusToleranceIsAccepted) {
     EXPECT_TRUE(read("F9 G2 X10.004 Y0 I5").problems.empty());
     EXPECT_FALSE(read("F9 G2 X10.012 Y0 I5").problems.empty());
