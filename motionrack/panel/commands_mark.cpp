@@ -84,16 +84,19 @@ struct MarkCommand {
     std::string card, session;
     std::uint64_t stops = 0;       ///< StopLatch::trips() at the command
     std::uint64_t mark_stops = 0;  ///< PanelContext::mark_stops at the command
+    Instant door_opened{};         ///< SafetyContacts::door_opened() at the command
 };
 
-/// Refuses a mark command if a stop, a mark_stop or a loss of control came after it.
+/// Refuses a mark command if a stop, an opening of the door, a mark_stop or a loss of control came after it.
 Result<void> check_still_wanted(PanelContext& context, const MarkCommand& command) {
     MOTIONRACK_CHECK(context.machine.conditions().may_begin("Not marked"));
     const auto refuse = [](const char* why) {
         return fail(ErrorKind::refused,
                     fmt::format("Not marked: {} while the list was made. Nothing was marked; mark again.", why));
     };
-    if (context.machine.rack().stop_latch().trips() != command.stops) return refuse("the machine was stopped");
+    rack::StopLatch& latch = context.machine.rack().stop_latch();
+    if (latch.trips() != command.stops) return refuse("the machine was stopped");
+    if (latch.contacts().door_opened() != command.door_opened) return refuse("the door was opened");
     if (context.mark_stops != command.mark_stops) return refuse("the marking was stopped");
     const auto holder = context.lease.holder();
     if (!holder || holder->session != command.session) return refuse("control was lost");
@@ -143,7 +146,8 @@ void mark(PanelContext& context, const Caller& caller, const json& fields, Ready
     if (const Result<void> good = check_card(context, card); !good) return ready(tl::unexpected<Error>(good.error()));
     if (const Result<void> may = context.machine.conditions().may_begin("Not marked"); !may)
         return ready(tl::unexpected<Error>(may.error()));
-    const MarkCommand command{card, caller.session, context.machine.rack().stop_latch().trips(), context.mark_stops};
+    rack::StopLatch& latch = context.machine.rack().stop_latch();
+    const MarkCommand command{card, caller.session, latch.trips(), context.mark_stops, latch.contacts().door_opened()};
     const auto work = [card, config = context.machine.rack().config(), text = fields.at("job").get<std::string>(),
                        drawing = fields.value("drawing", ""), on_parts = fields.value("start", "now") == "parts"] {
         return lists_of(config, card, text, drawing, on_parts);

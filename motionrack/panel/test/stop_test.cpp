@@ -175,6 +175,26 @@ TEST_P(MarkCommand, IsNotExecutedIfItEndsWhileItsListIsBuilt) {
     EXPECT_EQ(answered, 1);
 }
 
+TEST(DoorOnThePage, EndsAMarkCommandAlsoIfItIsClosedBeforeTheListIsBuilt) {
+    Asked a(with_door());
+    a.good(0.1, "take_control");
+    int answered = 0;
+    a.at(0.2, [&] {
+        a.ask(anna, "mark", {{"card", "scan"}, {"job", slow_job}}, [&](const Answer& answer) {
+            ++answered;
+            EXPECT_EQ(answer.status, 409);
+            EXPECT_THAT(message_of(answer), HasSubstr("the door was opened while the list was made"));
+        });
+        for (const int closed : {0, 1})
+            a.ask(anna, "set_wire", {{"name", "door"}, {"value", closed}},
+                  [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
+    });
+    a.at(0.5, eve, "workpiece", {{"scanner", "head"}},
+         [](const Answer& answer) { EXPECT_EQ(answer.body["marked_mm"], 0); });
+    a.run(1);
+    EXPECT_EQ(answered, 1);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Ends, MarkCommand,
     testing::Values(EndOfMarking{"stop", "stop", json::object(), "Stopped on request"},
