@@ -70,6 +70,10 @@ TEST_F(ServedProcess, IsNotStartedWithAJournalThatOthersMayWriteOrReplace) {
     ran = motionrack(command + "open/rack.journal");
     EXPECT_EQ(ran.code, 2);
     EXPECT_THAT(ran.out, HasSubstr("Others may replace the journal: its folder open is open to them"));
+    std::filesystem::create_symlink("open/rack.journal", folder / "link.journal");
+    ran = motionrack(command + "link.journal");
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.out, HasSubstr("Others may replace the journal: its folder open is open to them"));
     EXPECT_FALSE(std::filesystem::exists(folder / "open/rack.journal"));
 }
 

@@ -4,13 +4,32 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <motionrack/journal/file_watch.hpp>
 
 namespace motionrack::journal {
 
-void FileWatch::add(const std::string& path) {
+namespace {
+
+constexpr int max_links = 40;  ///< as many as the system follows
+
+}  // namespace
+
+std::string file_behind(const std::string& path) {
+    std::error_code none;
+    std::filesystem::path file = path;
+    for (int i = 0; i < max_links && std::filesystem::is_symlink(file, none); ++i)
+        file = file.parent_path() / std::filesystem::read_symlink(file, none);
+    return file.string();
+}
+
+Result<void> FileWatch::add(const std::string& path) {
     struct stat seen {};
-    if (::stat(path.c_str(), &seen) == 0) files_.push_back({path, seen.st_dev, seen.st_ino, seen.st_size});
+    if (::stat(path.c_str(), &seen) != 0)
+        return fail(ErrorKind::io,
+                    fmt::format("cannot be watched: the file '{}' cannot be checked: {}", path, std::strerror(errno)));
+    files_.push_back({path, seen.st_dev, seen.st_ino, seen.st_size});
+    return {};
 }
 
 Result<void> FileWatch::check() {

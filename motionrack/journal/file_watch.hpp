@@ -9,10 +9,13 @@
 
 namespace motionrack::journal {
 
+/// Returns the file that is opened under this path: that behind symbolic links, which may be missing.
+std::string file_behind(const std::string& path);
+
 class FileWatch {
   public:
-    /// Starts to watch the file at `path`. Ignores missing files.
-    void add(const std::string& path);
+    /// Starts to watch the file at `path`. Errors: io, and the file is not watched; the text as that of check().
+    Result<void> add(const std::string& path);
     /// Errors: io if a file was deleted, replaced or truncated; the text continues "The journal '...' ".
     Result<void> check();
 

@@ -92,7 +92,9 @@ Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, JournalS
     return journal;
 }
 
-Result<std::unique_ptr<Journal>> Journal::prepare(const std::string& path, JournalSettings settings) {
+Result<std::unique_ptr<Journal>> Journal::prepare(const std::string& name, JournalSettings settings) {
+    // SQLite puts its log beside the file, not beside a link, and the lock must be the same under all names.
+    const std::string path = file_behind(name);
     MOTIONRACK_TRY(auto lock, FileLock::take(path));
     MOTIONRACK_CHECK(make_private(path));
     MOTIONRACK_TRY(Database writer, Database::open(path, Database::Use::write));
@@ -111,16 +113,26 @@ Result<std::unique_ptr<Journal>> Journal::prepare(const std::string& path, Journ
 }
 
 Result<void> Journal::begin() {
-    if (Result<void> begun = insert_run(); !begun) {
+    Result<void> begun = insert_run();
+    if (begun) begun = watch_files();
+    if (!begun) {
         // A run that did not begin must not look like one without an end.
         (void)writer_->run("ROLLBACK");
         (void)writer_->run(fmt::format("DELETE FROM run WHERE number = {}", run_).c_str());
         return begun;
     }
     writer_->set_log_kept(false);
-    files_ = std::make_unique<FileWatch>();
-    for (const char* end : {"", "-wal", ".lock"}) files_->add(path_ + end);
     thread_ = std::thread([this] { work(); });
+    return {};
+}
+
+Result<void> Journal::watch_files() {
+    files_ = std::make_unique<FileWatch>();
+    for (const char* end : {"", "-wal", ".lock"})
+        if (const Result<void> added = files_->add(path_ + end); !added)
+            return fail(ErrorKind::io,
+                        fmt::format("The journal '{}' {}. Nothing was started; start again, or name another file.",
+                                    path_, added.error().message));
     return {};
 }
 

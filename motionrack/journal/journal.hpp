@@ -78,9 +78,9 @@ class Journal {
     /// Callback for a written entry, on the writing thread.
     using Done = std::function<void(const Result<std::int64_t>& number)>;
 
-    /// Reads the state left by the previous run; the run itself starts with begin(). Errors: io if the file cannot be
-    /// created, is not a journal, or belongs to a running program; it is left unchanged.
-    static Result<std::unique_ptr<Journal>> prepare(const std::string& path, JournalSettings settings = {});
+    /// Reads the state left by the previous run; the run itself starts with begin(). `name` may be a link. Errors: io
+    /// if the file cannot be created, is not a journal, or belongs to a running program; it is left unchanged.
+    static Result<std::unique_ptr<Journal>> prepare(const std::string& name, JournalSettings settings = {});
     /// Starts the run; call it once, when nothing else can prevent the start. Until then entries and kept values wait,
     /// and are dropped if it never begins. Errors: io; the state left by the previous run remains.
     Result<void> begin();
@@ -124,6 +124,7 @@ class Journal {
             std::unique_ptr<Database> writer, std::unique_ptr<Database> reader);
     Result<void> read_file();
     Result<void> insert_run();
+    Result<void> watch_files();
     Result<void> read_last_run();
     Result<void> read_kept(LastRun& last);
     void work();

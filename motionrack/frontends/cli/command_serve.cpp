@@ -16,6 +16,7 @@
 #include <motionrack/frontends/cli/system_service.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/frontends/server/served_rack.hpp>
+#include <motionrack/journal/file_watch.hpp>
 #include <motionrack/operate/journal_writer.hpp>
 #include <motionrack/rack/count_noun.hpp>
 #include <optional>
@@ -76,10 +77,8 @@ class Serving {
         settings.version = MOTIONRACK_VERSION;
         settings.boot = auth::random_token().substr(0, 8);
         settings.door = door_settings();
-        // Resolves links: a journal is written in place, never replaced, so it may lie behind a link.
-        std::error_code none;
-        const std::string journal =
-            options_.journal.empty() ? std::string() : fs::weakly_canonical(options_.journal, none).string();
+        // A journal is written in place, never replaced, so it may lie behind a link.
+        const std::string journal = journal::file_behind(options_.journal);
         MOTIONRACK_CHECK(disk::may_write({options_.rack, options_.certificate, options_.key}, {users_file_, journal}));
         for (const std::string& text : options_.live) {
             MOTIONRACK_TRY(operate::LivePlace place, operate::read_live_place(text));
@@ -91,7 +90,7 @@ class Serving {
         settings.page.mount("/docs", docs_for_panel());
         MOTIONRACK_TRY(settings.panel.rack_text, options_.rack.empty() ? Result<std::string>(demonstration_rack())
                                                                        : read_text(options_.rack, read_limits::toml));
-        if (!options_.journal.empty()) MOTIONRACK_CHECK(open_journal(config, settings.machine));
+        if (!journal.empty()) MOTIONRACK_CHECK(open_journal(journal, config, settings.machine));
         settings.journal = journal_.get();
         MOTIONRACK_TRY(served_, server::ServedRack::open(config, std::move(settings)));
         if (!journal_) return {};
@@ -101,12 +100,13 @@ class Serving {
         return begun;
     }
 
-    Result<void> open_journal(const rack::RackConfig& config, operate::MachineSettings& settings) {
-        MOTIONRACK_CHECK(auth::check_writers(options_.journal, "The journal"));
+    Result<void> open_journal(const std::string& file, const rack::RackConfig& config,
+                              operate::MachineSettings& settings) {
+        MOTIONRACK_CHECK(auth::check_writers(file, "The journal"));
         journal::JournalSettings book;
         book.max_bytes = options_.journal_megabytes * 1'000'000;
         book.on_quota = [this](const std::string& sentence) { write_line(sentence); };
-        MOTIONRACK_TRY(journal_, journal::Journal::prepare(options_.journal, std::move(book)));
+        MOTIONRACK_TRY(journal_, journal::Journal::prepare(file, std::move(book)));
         if (!journal_->before()) return {};
         operate::LastKnownPositions last = operate::read_last(*journal_->before(), config);
         if (!last.sentence.empty()) print_warning(last.sentence);

@@ -139,7 +139,7 @@ TEST(FileWatch, DetectsThatAFileAddedSinceItsStartIsGone) {
     const std::string path = testing::TempDir() + "file_watch_" + std::to_string(::getpid());
     std::ofstream(path) << "begun";
     FileWatch watch;
-    watch.add(path);
+    ASSERT_TRUE(watch.add(path));
     EXPECT_TRUE(watch.check());
     std::ofstream(path, std::ios::app) << " and gone on";
     EXPECT_TRUE(watch.check());
@@ -149,7 +149,9 @@ TEST(FileWatch, DetectsThatAFileAddedSinceItsStartIsGone) {
     EXPECT_THAT(cut.error().message, HasSubstr("was cut from 17 to 8 bytes"));
     fs::remove(path);
     FileWatch without;
-    without.add(path);
+    const Result<void> added = without.add(path);
+    ASSERT_FALSE(added);
+    EXPECT_THAT(added.error().message, HasSubstr("cannot be watched: the file '" + path + "'"));
     EXPECT_TRUE(without.check()) << "a file that was missing is not watched";
 }
 
@@ -157,7 +159,7 @@ TEST(FileWatch, DetectsThatALinkHasTakenThePlaceOfAFile) {
     const std::string path = testing::TempDir() + "file_watch_link_" + std::to_string(::getpid());
     std::ofstream(path) << "begun";
     FileWatch watch;
-    watch.add(path);
+    ASSERT_TRUE(watch.add(path));
     const auto link_to = [&](const fs::path& to) {
         fs::remove(path);
         fs::create_symlink(to, path);

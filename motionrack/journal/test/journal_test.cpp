@@ -70,6 +70,28 @@ TEST_F(JournalFile, BelongsToOneProgramAtATime) {
     write(*journal, "state", "still mine");
 }
 
+TEST_F(JournalFile, BehindALinkIsLockedAndWatchedWhereItIs) {
+    const std::string link = path_ + ".link";
+    fs::remove(link);
+    fs::create_symlink(fs::path(path_).filename(), link);
+    for (const bool there : {false, true}) {
+        SCOPED_TRACE(there);
+        ASSERT_EQ(fs::exists(path_), there);
+        const auto journal = Journal::open(link);
+        ASSERT_TRUE(journal) << journal.error().message;
+        write(**journal, "state", "moving");
+        const auto second = Journal::open(path_);
+        ASSERT_FALSE(second);
+        EXPECT_NE(second.error().message.find("belongs to another program"), std::string::npos);
+        EXPECT_FALSE(fs::exists(link + ".lock"));
+        if (!there) continue;
+        fs::remove(path_ + "-wal");
+        while ((*journal)->failure().empty()) std::this_thread::yield();
+        EXPECT_NE((*journal)->failure().find("was deleted"), std::string::npos) << (*journal)->failure();
+    }
+    fs::remove(link);
+}
+
 TEST_F(JournalFile, DoesNotChangeFilesThatAreNotAJournal) {
     std::ofstream(path_)
         << "these are my notes, not a database, and they are long enough to be seen as a damaged one................";
