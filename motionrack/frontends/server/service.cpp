@@ -165,10 +165,10 @@ Admission PanelService::admit_api(const RequestHead& head, const RequestTarget& 
         std::any_of(out.row->fields.begin(), out.row->fields.end(), [&](const panel::FieldSpec& field) {
             return field.max > static_cast<double>(settings_.limits.small_body) / 2;
         });
-    out.body_limit = query                             ? 0
-                     : out.caller.role < out.row->role ? settings_.limits.strange_body
-                     : long_texts                      ? settings_.limits.big_body
-                                                       : settings_.limits.small_body;
+    out.body_limit = query                                ? 0
+                     : out.caller.role < out.row->role    ? settings_.limits.strange_body
+                     : long_texts && is_known(out.caller) ? settings_.limits.big_body
+                                                          : settings_.limits.small_body;
     return out;
 }
 
@@ -251,15 +251,15 @@ void PanelService::ask(panel::Caller caller, const std::string& address, const p
                 "More than {:g} queries a second came from this address. The query was not answered; send fewer.",
                 settings_.limits.requests_per_second)));
     caller.address = address;
-    const bool is_known = !caller.user.empty() || caller.role >= row.role;
-    panel_.ask(caller, row.name, fields,
-               [this, post = post_, reply = std::move(reply), query = is_query(row), user = caller.user, address,
-                passing = row.high_rate, is_known, what = std::string(row.name)](panel::Answer answer) {
-                   (*post)([this, reply, query, user, address, passing, is_known, what, answer = std::move(answer)] {
-                       if (!query && (!passing || answer.status != 200)) audit(user, address, what, answer, is_known);
-                       reply(answer);
-                   });
-               });
+    panel_.ask(
+        caller, row.name, fields,
+        [this, post = post_, reply = std::move(reply), query = is_query(row), user = caller.user, address,
+         passing = row.high_rate, is_known = is_known(caller), what = std::string(row.name)](panel::Answer answer) {
+            (*post)([this, reply, query, user, address, passing, is_known, what, answer = std::move(answer)] {
+                if (!query && (!passing || answer.status != 200)) audit(user, address, what, answer, is_known);
+                reply(answer);
+            });
+        });
 }
 
 void PanelService::stop(panel::Caller caller, const std::string& address) {

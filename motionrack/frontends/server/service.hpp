@@ -81,7 +81,8 @@ class PanelService {
     }
     auth::AuthResult<auth::Identity> authenticate(const std::string& token, const Peer& peer);
 
-    /// `is_known`: the client was authenticated; others may write only a limited number of audit entries.
+    /// `is_known`: the client was authenticated, or the server needs no token; others may write only a limited number
+    /// of audit entries.
     void audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer,
                bool is_known);
     /// Writes due summaries of unauthenticated clients to the audit. The server calls it every 5 ms.
@@ -95,6 +96,10 @@ class PanelService {
 
   private:
     std::optional<HttpAnswer> refuse(const RequestHead& head);
+    /// Returns true for a client with a token, and for all of this computer on a server without authentication.
+    static bool is_known(const panel::Caller& caller) {
+        return !caller.user.empty() || caller.role == auth::Role::maintain;
+    }
     Admission admit_api(const RequestHead& head, const RequestTarget& target);
     HttpAnswer pair(const RequestHead& head, const std::string& body);
     HttpAnswer forget(const RequestHead& head);

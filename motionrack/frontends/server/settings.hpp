@@ -30,7 +30,7 @@ struct Limits {
         1024;  ///< maximum bytes of a body without permission for the operation, or of a pairing request
     std::size_t small_body = 64 * 1024;  ///< maximum bytes of other bodies
     std::size_t big_body =
-        16 * 1024 * 1024;  ///< maximum bytes of a body that may contain a program, with permission for it
+        16 * 1024 * 1024;  ///< maximum bytes of a body that may contain a program, with permission for it and a token
     double requests_at_once = 500, requests_per_second = 200;  ///< HTTP, per address
     double messages_at_once = 200, messages_per_second = 100;  ///< WebSocket, per connection
     std::size_t pictures_waiting = 2;         ///< maximum number queued per client; later ones are lost

@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 
+#include <atomic>
 #include <list>
 #include <motionrack/frontends/server/connection_slots.hpp>
 #include <motionrack/frontends/server/origin_policy.hpp>
@@ -162,6 +163,41 @@ TEST(UnknownSender, SendsShortMessagesOnly) {
         EXPECT_EQ(frame.code, 1009);
         break;
     }
+}
+
+TEST(UnknownSender, ChecksProgramsUpToTheLengthOfOtherBodiesOnly) {
+    std::string program;
+    for (int i = 0; i < 1000; ++i) program += "(" + std::string(70, '.') + ")\n";
+    const std::string longer = json{{"text", program}}.dump(), shorter = json{{"text", program.substr(0, 7300)}}.dump();
+    Running running;
+    EXPECT_EQ(running.client().ask("POST", "/api/check", shorter).status, 200);
+    const WebAnswer refused = running.client().ask("POST", "/api/check", longer);
+    EXPECT_EQ(refused.status, 413);
+    EXPECT_THAT(refused.message(), HasSubstr("65536 bytes"));
+    const std::string bearer = "Authorization: Bearer " + running.token("anna", auth::Role::observe) + "\r\n";
+    EXPECT_EQ(running.client().ask("POST", "/api/check", longer, bearer).status, 200);
+    Running open([](ServerSettings& settings) { settings.loopback_role = auth::Role::maintain; });
+    EXPECT_EQ(open.client().ask("POST", "/api/check", longer).status, 200) << "without authentication";
+}
+
+TEST(UnknownSender, ChecksProgramsWithinTheAuditOfStrangers) {
+    const auto entries = [](auth::Role without_token) {
+        std::atomic<int> passed = 0;
+        Running running([&](ServerSettings& settings) {
+            settings.loopback_role = without_token;
+            settings.clock = [&] {
+                const auto later = passed.load() * 1500ms;
+                return auth::Timestamps{std::chrono::system_clock::now() + later,
+                                        std::chrono::steady_clock::now() + later};
+            };
+        });
+        WebClient client = running.client();
+        for (; passed < 100; ++passed) EXPECT_EQ(client.ask("POST", "/api/check", R"({"text":"G0 X1\n"})").status, 200);
+        const std::lock_guard<std::mutex> alone(running.lock);
+        return running.audit.size();
+    };
+    EXPECT_LT(entries(auth::Role::observe), 50u) << "20 at once, one in 10 s, and a line a minute";
+    EXPECT_EQ(entries(auth::Role::maintain), 100u) << "without authentication";
 }
 
 TEST(Token, IsInvalidOnceItsBrowserIsRemoved) {
