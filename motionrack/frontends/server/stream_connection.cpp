@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
 #include <motionrack/frontends/server/socket.hpp>
@@ -64,7 +65,12 @@ class StreamConnection final : public OpenConnection,
         reason_.emplace(static_cast<websocket::close_code>(code), beast::string_view(reason.data(), reason.size()));
         if (!writes_) return say_goodbye();
         // A client that does not read would not receive the close frame either.
-        if (code == websocket::close_code::try_again_later) socket_.next_layer().tcp().close();
+        if (code == websocket::close_code::try_again_later) return socket_.next_layer().tcp().close();
+        close_limit_.expires_after(pool_->service->settings().limits.spare_time);
+        close_limit_.async_wait([weak = weak_from_this()](error_code error) {
+            const auto self = weak.lock();
+            if (self && !error) self->socket_.next_layer().tcp().close();
+        });
     }
 
     // ---- OpenConnection
@@ -101,6 +107,7 @@ class StreamConnection final : public OpenConnection,
     std::shared_ptr<Client> client_;
     beast::flat_buffer buffer_;
     std::optional<websocket::close_reason> reason_;
+    asio::steady_timer close_limit_{socket_.get_executor()};  ///< ends a close that waits for a pending write
     bool opened_ = false, writes_ = false, left_ = false;
 };
 

@@ -188,6 +188,23 @@ TEST(HostileStream, ThatReadsNoAnswersIsClosed) {
     EXPECT_EQ(running.client().ask("GET", "/api/status").status, 200);
 }
 
+TEST(HostileStream, ThatReadsNothingIsClosedWithItsToken) {
+    Running running([](ServerSettings& settings) {
+        settings.limits.texts_waiting = 1'000'000;
+        settings.limits.silence = std::chrono::hours(1);
+        settings.limits.spare_time = std::chrono::milliseconds(20);
+    });
+    WebClient client(running.port(), false, true);
+    ASSERT_EQ(client.upgrade().status, 101);
+    ASSERT_TRUE(client.exchange({{"token", running.token("anna")}}).value("done", false));
+    // More answers than the buffers of a connection take: a write is pending.
+    for (int i = 0; i < 40'000; ++i) client.send_frame(1, "{\"id\":1,\"query\":\"nothing\"}");
+    EXPECT_EQ(running.served->server().clients(), 1);
+    EXPECT_TRUE(running.served->door().revoke("anna"));
+    while (running.served->server().clients() > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_TRUE(client.ended());
+}
+
 /// Holds `count` connections, each with different input.
 std::list<WebClient> crowd(const Running& running, int count) {
     std::list<WebClient> out;
