@@ -20,6 +20,7 @@ constexpr double min_shift = 0.02;  ///< mm or degrees; a servo in position hold
 constexpr Duration again_within = whole_seconds(1);
 constexpr Duration repeat_every = whole_seconds(10);
 constexpr std::int64_t max_repeats = 20;
+constexpr std::size_t max_sources = 20;  ///< maximum number of entries about one stop in force
 
 std::string places(const std::vector<AxisStatus>& axes) {
     std::string out;
@@ -55,6 +56,7 @@ void JournalWriter::see(const Status& status) {
         for (const AxisStatus& axis : status.axes) positions_valid_.push_back(axis.position_valid);
         keep(status);
     }
+    if (status.state != MachineState::stopping) stopped_by_.clear();
     see_alarms(status);
     see_job(status);
     see_settings(status);
@@ -70,12 +72,22 @@ void JournalWriter::stopped(const StopReport& report) {
     const bool again = before && !before->releases && before->source == report.source;
     if (again && report.at - before->at < again_within) return;
     if (idle(report.state) && !may_repeat(report.at)) return;
+    if (!is_first_of_its_source(report)) return;
     write(report.at, "stop", report.text,
           json{{"who", report.source.who},
                {"address", report.source.address},
                {"kind", report.source.kind},
                {"state", name_of(report.state)}}
               .dump());
+}
+
+/// Counts no time: with a paused clock a machine is stopping as long as clients send stops.
+bool JournalWriter::is_first_of_its_source(const StopReport& report) {
+    if (report.state != MachineState::stopping) stopped_by_.clear();
+    if (stopped_by_.size() >= max_sources) return false;
+    if (std::find(stopped_by_.begin(), stopped_by_.end(), report.source) != stopped_by_.end()) return false;
+    stopped_by_.push_back(report.source);
+    return true;
 }
 
 bool JournalWriter::may_repeat(Instant at) {

@@ -29,10 +29,12 @@ class JournalWriter {
     void see(const Status& status);
     /// Writes a stop command with its user, address and kind. Further stops by the same source within a second count as
     /// the same stop, since a page sends its STOP on two channels. Stops of an idle machine change nothing: 20 in a row
-    /// are written, then one per 10 s of virtual time, whatever their source.
+    /// are written, then one per 10 s of virtual time, whatever their source. A machine that is stopping already writes
+    /// one of each source, of 20 sources at most.
     void stopped(const StopReport& report);
 
   private:
+    bool is_first_of_its_source(const StopReport& report);
     bool may_repeat(Instant at);
     void see_state(const Status& status);
     void see_job(const Status& status);
@@ -55,7 +57,8 @@ class JournalWriter {
     Instant kept_{};
     std::vector<double> kept_axes_;  ///< positions by their counters
     std::optional<StopReport> stopped_;
-    std::int64_t repeats_ = 0;  ///< stop commands to an idle machine
+    std::vector<StopOrigin> stopped_by_;  ///< sources of the entries about the stop in force
+    std::int64_t repeats_ = 0;            ///< stop commands to an idle machine
     Instant repeated_{};
 };
 

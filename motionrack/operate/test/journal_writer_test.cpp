@@ -140,6 +140,40 @@ TEST_F(JournalWriterTest, IsNotFloodedByStopsOfAnIdleMachine) {
     EXPECT_EQ(stops.back(), "100000") << "one that stops something is always written";
 }
 
+/// With a paused clock the machine does not come to standstill.
+TEST_F(JournalWriterTest, IsNotFloodedByStopsOfAMachineThatIsStopping) {
+    open();
+    const auto stop = [&](const std::string& who, MachineState state, int ms) {
+        book_->stopped({milliseconds(ms), {who, "10.0.0.5", "STOP"}, state, fmt::format("{} {}", who, ms), false});
+    };
+    const auto see = [&](MachineState state) {
+        Status status;
+        status.state = state;
+        book_->see(status);
+    };
+    stop("anna", MachineState::moving, 0);
+    for (int i = 0; i < 1000; ++i) {
+        see(MachineState::stopping);
+        stop("bert", MachineState::stopping, 0);
+        stop("anna", MachineState::stopping, 0);
+    }
+    stop("bert", MachineState::stopping, 2'000);
+    see(MachineState::standstill);
+    see(MachineState::stopping);
+    stop("bert", MachineState::stopping, 4'000);
+    for (int i = 0; i < 1000; ++i) stop(std::to_string(i), MachineState::stopping, 4'000);
+    stop("carl", MachineState::moving, 6'000);
+    end(true);
+    open();
+    const std::vector<std::string> stops = texts("stop");
+    ASSERT_EQ(stops.size(), 2u + 20u + 1u);
+    EXPECT_EQ(stops[0], "anna 0");
+    EXPECT_EQ(stops[1], "bert 0");
+    EXPECT_EQ(stops[2], "bert 4000") << "another stop";
+    EXPECT_EQ(stops[21], "18 4000");
+    EXPECT_EQ(stops[22], "carl 6000") << "one that stops something is always written";
+}
+
 TEST_F(JournalWriterTest, TheNextRunStartsAtThePositionOfTheMachine) {
     open();
     run(
