@@ -33,10 +33,10 @@ bool ArcWords::read(std::int16_t code) {
     const auto& axes = plane_axes[next().plane];
     const bool counter_clockwise = code == 30;
     double turns = 1;
-    if (block().has('P') && (used() & letter_bit('P')) == 0) {
+    if (!claim_for_g(code, letter_bit('P'))) return false;
+    if (block().has('P')) {
         if (!need_integer('P', 1, max_turns, "the number of turns of an arc")) return false;
         turns = block()['P'];
-        use(letter_bit('P'));
     }
     PlanePoint centre;
     if (!arc_centre(counter_clockwise, centre)) return false;
@@ -72,7 +72,7 @@ bool ArcWords::arc_centre(bool counter_clockwise, PlanePoint& centre) {
 bool ArcWords::arc_centre_of_radius(PlanePoint start, PlanePoint end, bool closed, bool counter_clockwise,
                                     PlanePoint& centre) {
     const auto& axes = plane_axes[next().plane];
-    use(letter_bit('R'));
+    if (!claim_for_g(next().motion, letter_bit('R'))) return false;
     const std::uint32_t plane_words = letter_bit(axis_letters[axes[0]]) | letter_bit(axis_letters[axes[1]]);
     if ((block().words & plane_words) == 0) {
         return fail_at(error_column(), GrblStatus::no_plane_axis,

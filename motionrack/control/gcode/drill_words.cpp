@@ -7,6 +7,7 @@
 #include <motionrack/control/gcode/drill_cycle.hpp>
 #include <motionrack/control/gcode/drill_words.hpp>
 #include <motionrack/control/gcode/plane_point.hpp>
+#include <motionrack/control/gcode/words.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -24,18 +25,18 @@ constexpr std::uint32_t depth_word = letter_bit('Z');
 bool DrillWords::cycle_words(std::int16_t code) {
     const char depth = axis_letters[plane_axes[next().plane][2]];
     if (modes().motion != code) next().cycle_words = 0;
-    const auto keep = [&](char letter, std::uint32_t mark, double& kept, double value) {
-        if (!block().has(letter) || (used() & letter_bit(letter) & ~axis_words) != 0) return;
+    const auto keep = [&](std::uint32_t mark, double& kept, double value) {
         kept = value;
         next().cycle_words |= mark;
-        use(letter_bit(letter));
     };
-    if (block().has('R')) keep('R', letter_bit('R'), next().cycle_r, scaled('R'));
-    if (block().has(depth)) keep(depth, depth_word, next().cycle_z, scaled(depth));
     const bool taps = code == 740 || code == 840, waits = code == 820 || code == 860 || code == 890;
+    if (!claim_for_g(code, rule_of_g(code).letters & (letter_bit('P') | letter_bit('Q') | letter_bit('R'))))
+        return false;
+    if (block().has('R')) keep(letter_bit('R'), next().cycle_r, scaled('R'));
+    if (block().has(depth)) keep(depth_word, next().cycle_z, scaled(depth));
     if (taps && next().cycle_words == 0) next().cycle_p = 0;
-    if ((waits || taps) && block().has('P')) keep('P', letter_bit('P'), next().cycle_p, block()['P']);
-    if (is_pecking(code) && block().has('Q')) keep('Q', letter_bit('Q'), next().cycle_q, scaled('Q'));
+    if ((waits || taps) && block().has('P')) keep(letter_bit('P'), next().cycle_p, block()['P']);
+    if (is_pecking(code) && block().has('Q')) keep(letter_bit('Q'), next().cycle_q, scaled('Q'));
     const std::uint32_t needed =
         letter_bit('R') | depth_word | (waits ? letter_bit('P') : 0) | (is_pecking(code) ? letter_bit('Q') : 0);
     const std::uint32_t missing = needed & ~next().cycle_words;
@@ -120,10 +121,10 @@ bool DrillWords::read(std::int16_t code) {
     const auto& axes = plane_axes[next().plane];
     if (!in_turned_plane(code) || !spindle_turns(code) || !cycle_words(code)) return false;
     DrillCycle plan;
+    if (!claim_for_g(code, letter_bit('L'))) return false;
     if (block().has('L')) {
         if (!need_integer('L', 1, max_repeats, "the number of holes")) return false;
         plan.repeats = static_cast<std::int32_t>(block()['L']);
-        use(letter_bit('L'));
     }
     plan.code = code;
     plan.spindle = next().spindle;

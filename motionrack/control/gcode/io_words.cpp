@@ -1,7 +1,6 @@
 // Numbered outputs and inputs.
 #include <fmt/format.h>
 
-#include <bit>
 #include <motionrack/control/gcode/io_words.hpp>
 #include <motionrack/control/gcode/words.hpp>
 
@@ -27,7 +26,7 @@ bool IoWords::read() {
     const int code = block().m[m_io];
     if (code == wait_on_input) return read_input();
     const bool analog = is_analog_output(code);
-    if (!claim_words(rule_of_m(code).letters) || !port_number(analog ? 'E' : 'P', '\0')) return false;
+    if (!claim_for_m(code, rule_of_m(code).letters) || !port_number(analog ? 'E' : 'P', '\0')) return false;
     if (analog && !block().has('Q')) {
         return fail_at(
             block().m_column[m_io], GrblStatus::word_missing,
@@ -39,7 +38,7 @@ bool IoWords::read() {
 
 /// Interprets M66: P or E, wait mode L, timeout Q.
 bool IoWords::read_input() {
-    if (!claim_words(rule_of_m(wait_on_input).letters) || !port_number('P', 'E')) return false;
+    if (!claim_for_m(wait_on_input, rule_of_m(wait_on_input).letters) || !port_number('P', 'E')) return false;
     if (block().has('L') && !need_integer('L', at_once, low, "how to wait (0 not at all, 1 rise, 2 fall, 3 on, 4 off)"))
         return false;
     const Wait wait = block().has('L') ? static_cast<Wait>(block()['L']) : at_once;
@@ -78,17 +77,6 @@ bool IoWords::port_number(char letter, char other) {
     }
     return need_integer(second ? other : letter, 0, max_ports - 1,
                         code == wait_on_input ? "the number of an input" : "the number of an output");
-}
-
-/// Claims words for M62 .. M68 if no other code of the line uses them.
-bool IoWords::claim_words(std::uint32_t letters) {
-    const std::uint32_t taken = letters & block().words & used();
-    use(letters);
-    if (taken == 0) return true;
-    const char letter = static_cast<char>('A' + std::countr_zero(taken));
-    return fail_word(letter, GrblStatus::axis_conflict,
-                     fmt::format("{}: M{} and another word of this line both use the {} word; put them on two lines",
-                                 word_text(letter), block().m[m_io], letter));
 }
 
 }  // namespace motionrack::control::gcode

@@ -15,7 +15,6 @@ class IoWords : public WordReader {
   private:
     bool read_input();
     bool port_number(char letter, char other);
-    bool claim_words(std::uint32_t letters);
 };
 
 }  // namespace motionrack::control::gcode

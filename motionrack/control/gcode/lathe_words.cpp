@@ -75,7 +75,8 @@ bool LatheWords::turning_words(std::int16_t code, LatheCycle& plan) {
     }
     if (!need_integer('Q', 0, 1e9, "the number of the sub with the contour")) return false;
     in_.contour.label = fmt::format("{:.0f}", block()['Q']);
-    use(letter_bit('Q') | letter_bit('D'));
+    if (!claim_for_g(code, letter_bit('Q'))) return false;
+    use(letter_bit('D'));
     for (const char letter : {'D', 'E', 'R'}) {
         if (block().has(letter) && block()[letter] < 0)
             return fail_word(letter, GrblStatus::negative_value,
@@ -83,13 +84,14 @@ bool LatheWords::turning_words(std::int16_t code, LatheCycle& plan) {
     }
     if (block().has('D')) plan.distance = scaled('D');
     if (code == finishing) {
-        use(letter_bit('E') | letter_bit('P'));
+        if (!claim_for_g(code, letter_bit('E') | letter_bit('P'))) return false;
         if (block().has('E')) plan.end_distance = scaled('E');
         if (block().has('P') && !need_integer('P', 1, max_passes, "the number of passes")) return false;
         if (block().has('P')) plan.passes = static_cast<std::int32_t>(block()['P']);
         return true;
     }
-    use(letter_bit('I') | letter_bit('R'));
+    if (!claim_for_g(code, letter_bit('R'))) return false;
+    use(letter_bit('I'));
     const double unit = next().inch ? 25.4 : 1;
     plan.depth = block().has('I') ? scaled('I') : unit;
     plan.retract = block().has('R') ? scaled('R') : 0.5 * unit;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/line_words.hpp>
 #include <motionrack/control/gcode/scanner.hpp>
 #include <utility>
@@ -54,6 +55,23 @@ std::size_t LineWords::error_column() const {
         first = std::min<std::size_t>(first, block_.column[std::countr_zero(left)]);
     }
     return first;
+}
+
+bool LineWords::claim(std::uint32_t letters, std::int16_t code) {
+    const std::uint32_t present = letters & block_.words;
+    if ((present & used_) != 0) return fail_claim(static_cast<char>('A' + std::countr_zero(present & used_)), code);
+    use(letters);
+    for (std::uint32_t left = present; left != 0; left &= left - 1)
+        claimed_by_[static_cast<std::size_t>(std::countr_zero(left))] = code;
+    return true;
+}
+
+bool LineWords::fail_claim(char letter, std::int16_t code) {
+    const auto name = [](std::int16_t of) { return of < 0 ? fmt::format("M{}", ~of) : name_of_g(of); };
+    const std::int16_t first = claimed_by_[static_cast<std::size_t>(letter_index(letter))];
+    return fail_word(letter, GrblStatus::axis_conflict,
+                     fmt::format("{}: {} and {} both use the {} word; put them on two lines", word_text(letter),
+                                 name(first), name(code), letter));
 }
 
 /// Detects X1e3: the E would be a separate word.

@@ -1,6 +1,7 @@
 // The words of the line under interpretation: those that a code of the line has used, and the error of the line.
 #pragma once
 
+#include <array>
 #include <motionrack/control/gcode/block.hpp>
 #include <string>
 #include <string_view>
@@ -25,9 +26,10 @@ class LineWords {
     std::int32_t number() const { return number_; }
     Language language() const { return language_; }
 
-    /// Returns the letters that a code of the line uses, one bit each.
-    std::uint32_t used() const { return used_; }
     void use(std::uint32_t letters) { used_ |= letters; }
+    /// Uses words that only one code of the line may use: `code` is a G code in tenths, or ~ of an M code. Refuses the
+    /// line if another code has claimed one of them.
+    bool claim(std::uint32_t letters, std::int16_t code);
     /// Marks the axis words as used by a code that is not a move.
     void take_axis_words() {
         axis_words_taken_ = true;
@@ -52,6 +54,7 @@ class LineWords {
     std::string_view word_text(char letter) const;
 
   private:
+    bool fail_claim(char letter, std::int16_t code);
     bool fail_unused(std::int16_t motion);
     bool fail_exponent();
 
@@ -60,6 +63,7 @@ class LineWords {
     std::int32_t number_ = 0;
     Language language_ = Language::words;
     std::uint32_t used_ = 0;
+    std::array<std::int16_t, 26> claimed_by_ = {};  ///< valid for the letters in `used_` that a code has claimed
     bool axis_words_taken_ = false;
 };
 

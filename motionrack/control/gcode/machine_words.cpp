@@ -50,7 +50,7 @@ bool MachineWords::stop(std::int16_t code) {
 bool MachineWords::overrides(std::int16_t code) {
     const bool takes_p = (rule_of_m(code).letters & letter_bit('P')) != 0;
     const bool on = takes_p && block().has('P') ? block()['P'] != 0 : code != 49;
-    if (takes_p) use(letter_bit('P'));
+    if (takes_p && !claim_for_m(code, letter_bit('P'))) return false;
     if (code == 52 && on) {
         return fail_at(
             block().m_column[m_override], GrblStatus::unsupported,
@@ -96,8 +96,7 @@ bool MachineWords::set_tool() {
                        "Q word missing: M61 needs the number of the tool in the spindle; write e.g. M61 Q3");
     if (!need_integer('Q', 0, largest_tool, "a tool number")) return false;
     const auto number = static_cast<std::int32_t>(block()['Q']);
-    if (!require_tool('Q', number)) return false;
-    use(letter_bit('Q'));
+    if (!require_tool('Q', number) || !claim_for_m(61, letter_bit('Q'))) return false;
     next().tool_loaded = number;
     steps().add(StepQueue::todo_tool_change);
     return true;

@@ -70,11 +70,8 @@ bool ModeWords::set_path(std::int16_t code) {
                                 : PathControl::continuous;
     if (code != 640) return true;
     next().tolerance_mm = settings().path_tolerance_mm;
-    const bool others = block().has_g(g_nonmodal) && (block().g[g_nonmodal] == 40 || block().g[g_nonmodal] == 100);
-    if (block().has('P') && !others) {
-        next().tolerance_mm = scaled('P');
-        use(letter_bit('P'));
-    }
+    if (!claim_for_g(code, letter_bit('P'))) return false;
+    if (block().has('P')) next().tolerance_mm = scaled('P');
     return true;
 }
 

@@ -51,7 +51,7 @@ bool NonmodalWords::dwell() {
         return fail_at(block().g_column[g_nonmodal], GrblStatus::word_missing,
                        "P word missing: G4 needs a time in seconds; write e.g. G4 P0.5");
     }
-    use(letter_bit('P'));
+    if (!claim_for_g(block().g[g_nonmodal], letter_bit('P'))) return false;
     steps().add_dwell(block()['P']);
     return true;
 }

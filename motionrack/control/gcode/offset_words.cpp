@@ -37,7 +37,7 @@ bool OffsetWords::set_offsets() {
             fmt::format("{}: the machine has {} work systems, P1 (G54) to P6 (G59), {}and P0 for the active one",
                         word_text('P'), by_sender ? "six" : "nine", by_sender ? "" : "P7 (G59.1) to P9 (G59.3), "));
     }
-    use(letter_bit('L') | letter_bit('P'));
+    if (!claim_for_g(block().g[g_nonmodal], letter_bit('L') | letter_bit('P'))) return false;
     const int number = static_cast<int>(block()['P']);
     return set_work_offset(number == 0 ? next().system : number - 1, block()['L'] == 20);
 }
@@ -51,8 +51,8 @@ bool OffsetWords::set_work_offset(int system, bool from_position) {
     WorkFrame& frame = edit_frame();
     const auto place = static_cast<std::size_t>(system);
     if (turns) {
+        if (!claim_for_g(block().g[g_nonmodal], letter_bit('R'))) return false;
         frame.rotation_deg[place] = block()['R'];
-        use(letter_bit('R'));
     }
     if (from_position && frame.rotation_deg[place] != 0) {
         shift_turned(frame, system);
@@ -92,7 +92,7 @@ void OffsetWords::shift_turned(WorkFrame& frame, int system) {
 /// tool position equals the words. L10 uses the active system, L11 uses G59.3.
 bool OffsetWords::edit_tool(int what) {
     if (!need_integer('P', 1, largest_tool, "the number of a tool")) return false;
-    use(letter_bit('L') | letter_bit('P'));
+    if (!claim_for_g(block().g[g_nonmodal], letter_bit('L') | letter_bit('P'))) return false;
     Tool tool;
     tool.number = static_cast<std::int32_t>(block()['P']);
     if (const Tool* known = tools().find(tool.number)) {
@@ -134,8 +134,7 @@ bool OffsetWords::edit_tool_shape(Tool& tool) {
     if (!block().has('Q')) return true;
     if (!need_integer('Q', 0, 9, "the orientation of a tool")) return false;
     tool.orientation = static_cast<std::int32_t>(block()['Q']);
-    use(letter_bit('Q'));
-    return true;
+    return claim_for_g(block().g[g_nonmodal], letter_bit('Q'));
 }
 
 bool OffsetWords::tool_length() {

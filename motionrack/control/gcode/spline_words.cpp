@@ -62,7 +62,7 @@ bool SplineWords::spline_allowed(std::int16_t code) {
 
 /// Reads the control points of G5: I J lead from the start to the first one, P Q from the end to the second one.
 bool SplineWords::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& curve) {
-    if (!block().has('P') || !block().has('Q') || (used() & (letter_bit('P') | letter_bit('Q'))) != 0) {
+    if (!block().has('P') || !block().has('Q')) {
         return fail_at(error_column(), GrblStatus::word_missing,
                        "G5 needs P and Q, the distance from its end to its second control point; write e.g. G5 X20 Y0 "
                        "I5 J10 P-5 Q10");
@@ -86,7 +86,8 @@ bool SplineWords::cubic_of_words(PlanePoint start, PlanePoint end, CubicBezier& 
                        "G5 needs I and J, the distance from its start to its first control point; only a G5 right "
                        "after another may omit them");
     }
-    use(letter_bit('I') | letter_bit('J') | letter_bit('P') | letter_bit('Q'));
+    if (!claim_for_g(50, letter_bit('P') | letter_bit('Q'))) return false;
+    use(letter_bit('I') | letter_bit('J'));
     const PlanePoint written_back = {scaled('P'), scaled('Q')};
     const PlanePoint back = turned_handle(written_back);
     handle = turned_handle(handle);

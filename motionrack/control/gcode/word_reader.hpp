@@ -30,8 +30,11 @@ class WordReader {
 
     std::int32_t line_number() const { return in_.words.number(); }
     Language language() const { return in_.words.language(); }
-    std::uint32_t used() const { return in_.words.used(); }
     void use(std::uint32_t letters) { in_.words.use(letters); }
+    bool claim_for_g(std::int16_t tenths, std::uint32_t letters) { return in_.words.claim(letters, tenths); }
+    bool claim_for_m(int code, std::uint32_t letters) {
+        return in_.words.claim(letters, static_cast<std::int16_t>(~code));
+    }
     void take_axis_words() { in_.words.take_axis_words(); }
     bool axis_words_taken() const { return in_.words.axis_words_taken(); }
     std::string_view word_text(char letter) const { return in_.words.word_text(letter); }

@@ -85,9 +85,9 @@ TEST(GcodePorts, AreRefusedWithTheirLocation) {
         {"M66 P1 L3 Q0", 11, "which must be above 0"},
         {"M66 P1 L3 Q-1", 11, "negative"},
         {"M66 E1 L3 Q1", 8, "waiting for an analog input is not possible"},
-        {"G4 P1 M62", 4, "both use the P word"},
-        {"M62 P1 G64", 5, "both use the P word"},
-        {"M67 E1 G83 X1 Z-1 R1 Q2 F9", 22, "both use the Q word"},
+        {"G4 P1 M62", 4, "G4 and M62 both use the P word"},
+        {"M62 P1 G64", 5, "G64 and M62 both use the P word"},
+        {"M67 E1 G83 X1 Z-1 R1 Q2 F9", 22, "G83 and M67 both use the Q word"},
         {"G0 X1 E5", 7, "the machine has no extruder"},
         {"G0 X1e3", 4, "no exponent"},
         {"M64 P1 P2", 8, "second P word"}};
