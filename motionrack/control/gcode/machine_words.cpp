@@ -108,7 +108,12 @@ bool MachineWords::save_modes(std::int16_t code) {
 }
 
 bool MachineWords::restore_saved() {
-    if (const ModalState* saved = in_.modes.saved(static_cast<std::size_t>(in_.parameters.level()))) restore(*saved);
+    const ModalState* saved = in_.modes.saved(static_cast<std::size_t>(in_.parameters.level()));
+    if (saved == nullptr)
+        return fail_at(block().m_column[m_state], GrblStatus::unsupported,
+                       "M72 has no modes to restore: none were saved in this program or sub, or M71 discarded them; "
+                       "write M70 or M73 before it");
+    restore(*saved);
     return true;
 }
 

@@ -231,9 +231,17 @@ RC_GTEST_PROP(GcodeWorkSystems, TurnBackAndForth, ()) {
 TEST(GcodeModes, AreSavedAndRestored) {
     expect_near(last_end("M70\nG20 G91\nX1\nM72\nX1"), 1, 0, 0);
     expect_near(last_end("M70\nG55 G10 L2 P2 X5\nX1\nM72\nX1"), 1, 0, 0);
-    expect_near(last_end("M70\nG20\nM71\nM72\nX1"), 25.4, 0, 0);
+    expect_near(last_end("M70\nG20\nM71\nX1"), 25.4, 0, 0);
     expect_near(last_end("o1 sub\nM73\nG20 G91\nX1\no1 endsub\no1 call\nX1"), 1, 0, 0);
     expect_near(last_end("o1 sub\nM70\nG20\nX1\no1 endsub\no1 call\nX1"), 25.4, 0, 0);
+}
+
+TEST(GcodeModes, ThatAreNotSavedCannotBeRestored) {
+    EXPECT_THAT(problem_with_tools("X1 M72"), HasSubstr("1:4: M72 has no modes to restore"));
+    EXPECT_THAT(problem_with_tools("M70\nG20\nM71\nM72\nX1"), HasSubstr("4:1: M72 has no modes to restore"));
+    EXPECT_THAT(problem_with_tools("o1 sub\nM72\no1 endsub\nM70\no1 call\nM72"),
+                HasSubstr("2:1: M72 has no modes to restore"))
+        << "each call has its own";
 }
 
 TEST(GcodeModes, UnsupportedByTheMachineAreRejected) {

@@ -63,14 +63,16 @@ std::vector<std::string> lines_with(const std::string& name) {
     return lines.empty() ? std::vector<std::string>{name} : lines;
 }
 
-/// Returns an interpreter of a machine with tool 1.
+/// Returns an interpreter of a machine with tool 1 and with saved modes, which M72 needs.
 Interpreter interpreter_with_tool() {
     Settings settings = testing::machine();
     Tool tool;
     tool.number = 1;
     tool.diameter_mm = 6;
     settings.tools.put(tool);
-    return Interpreter(settings);
+    Interpreter interpreter(settings);
+    EXPECT_TRUE(interpreter.line("M70", 1, Language::program));
+    return interpreter;
 }
 
 /// Runs the action with the name and the row of each code that a program may have.
