@@ -10,8 +10,8 @@
 //   (LinuxCNC; Grbl ignores them silently). R arcs may be 0.005 mm too short for half a turn (LinuxCNC).
 // - M7 and M8 may share a line (Grbl); LinuxCNC refuses it.
 // - G53 targets machine coordinates without the tool length (both). G43.1 of a sender accepts Z only (Grbl).
-// - G61 is exact path, G61.1 exact stop, G64 P blends (LinuxCNC); G64 without P uses the tolerance of the settings
-//   (LinuxCNC: no limit). Q of G64 (naive cam) is refused.
+// - G61 is exact path, G61.1 exact stop, G64 P blends (LinuxCNC); G64 without P or with P0 uses the tolerance of the
+//   settings (LinuxCNC: no limit). Q of G64 (naive cam) is refused.
 // - G80 may share a line with another motion word, which then applies (LinuxCNC; CAM programs begin with G0 G40 G80);
 //   Grbl refuses it.
 // - G53 ignores G91 (Grbl); LinuxCNC refuses the combination.

@@ -69,9 +69,10 @@ bool ModeWords::set_path(std::int16_t code) {
                   : code == 611 ? PathControl::exact_stop
                                 : PathControl::continuous;
     if (code != 640) return true;
-    next().tolerance_mm = settings().path_tolerance_mm;
     if (!claim_for_g(code, letter_bit('P'))) return false;
-    if (block().has('P')) next().tolerance_mm = scaled('P');
+    // P0 gives no tolerance, as in LinuxCNC; a tolerance of 0 would stop at each corner, which is G61.
+    const bool has_tolerance = block().has('P') && block()['P'] > 0;
+    next().tolerance_mm = has_tolerance ? scaled('P') : settings().path_tolerance_mm;
     return true;
 }
 

@@ -26,7 +26,7 @@ struct Settings {
         false;  ///< true: each axis positions independently, so arcs and feed moves of several axes are refused
     bool probe = false;        ///< true: a probe is connected; false: G38.2 .. G38.5 are refused
     bool start_in_g0 = false;  ///< true: axis words before any motion word are rapids, as in Grbl; false: an error
-    double path_tolerance_mm = 0.01;   ///< default tolerance of G64 without P; >= 0
+    double path_tolerance_mm = 0.01;   ///< default tolerance of G64 without P or with P0; >= 0
     double peck_clearance_mm = 0.254;  ///< G83 rapids back to this distance above the drilled depth; >= 0
     Point start = {};                  ///< initial position, machine coordinates
     std::array<Point, work_offset_count> work_offsets = {};  ///< initial work offsets, mm and degrees

@@ -64,15 +64,17 @@ TEST(GcodeReader, InverseTimeIsPerSecond) {
 TEST(GcodeReader, PathControlGoesWithEachMove) {
     Settings settings = machine();
     settings.path_tolerance_mm = 0.03;
-    const auto moves = read("G0 X1\nG61 X2\nG61.1 X3\nG64 P.5 X4\nG64 X5\nG20 G64 P1 X1", settings).moves();
-    ASSERT_EQ(moves.size(), 6u);
+    const auto moves = read("G0 X1\nG61 X2\nG61.1 X3\nG64 P.5 X4\nG64 X5\nG20 G64 P1 X1\nG64 P0 X2", settings).moves();
+    ASSERT_EQ(moves.size(), 7u);
     const PathControl paths[] = {PathControl::continuous, PathControl::exact_path, PathControl::exact_stop,
-                                 PathControl::continuous, PathControl::continuous, PathControl::continuous};
-    for (int i = 0; i < 6; ++i) EXPECT_EQ(moves[i].path, paths[i]) << i;
+                                 PathControl::continuous, PathControl::continuous, PathControl::continuous,
+                                 PathControl::continuous};
+    for (int i = 0; i < 7; ++i) EXPECT_EQ(moves[i].path, paths[i]) << i;
     EXPECT_EQ(moves[0].tolerance_mm, 0.03);
     EXPECT_EQ(moves[3].tolerance_mm, 0.5);
     EXPECT_EQ(moves[4].tolerance_mm, 0.03);
     EXPECT_EQ(moves[5].tolerance_mm, 25.4);
+    EXPECT_EQ(moves[6].tolerance_mm, 0.03) << "P0 is no tolerance";
 }
 
 TEST(GcodeReader, ReportsEventsInTheOrderInWhichTheyTakeEffect) {
