@@ -8,7 +8,7 @@
 namespace motionrack::control {
 namespace {
 
-// squares: 0.749956 + 0.25 < 1
+// squares: 0.64 + 0.16 < 1
 constexpr double share_towards_centre = 0.8;
 constexpr double share_along_arc = 0.4;
 
