@@ -1,16 +1,11 @@
 // Writes the events, samples and inputs of a job to its recording.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <motionrack/rack/job_recorder.hpp>
 
 namespace motionrack::rack {
 
 namespace {
-
-// Data lost when the program is killed: the last tenth of the job's time, or this number of events.
-constexpr std::uint64_t max_unflushed = 1'000'000;
-constexpr Duration min_flush_period = whole_seconds(1);
 
 std::string lower_letter(char letter) {
     return std::string(1, static_cast<char>(letter - 'A' + 'a'));
@@ -53,16 +48,6 @@ trace::RecordedSignal signal_of(const Channel& channel) {
 
 }  // namespace
 
-JobRecorder::RecordingSink::RecordingSink(trace::RecordingWriter file, Instant start)
-    : writer(std::move(file)), began(start), next_flush(start + min_flush_period) {}
-
-void JobRecorder::RecordingSink::settle(Instant at) {
-    if (at < next_flush && writer.events() - flushed_events < max_unflushed) return;
-    writer.flush(at);
-    flushed_events = writer.events();
-    next_flush = at + std::max(min_flush_period, (at - began) / 10);
-}
-
 Result<void> JobRecorder::RecordingSink::close(Instant at) {
     end.at = at;
     return writer.close(end);
@@ -79,7 +64,7 @@ Result<std::unique_ptr<JobRecorder>> JobRecorder::create(Rack& rack, const std::
         head.signals.clear();
         for (const Channel& channel : declared.channels) head.signals.push_back(signal_of(channel));
         MOTIONRACK_TRY(trace::RecordingWriter writer, trace::RecordingWriter::create(path, head, declared.start));
-        out->file_ = std::make_shared<RecordingSink>(std::move(writer), declared.start);
+        out->file_ = std::make_shared<RecordingSink>(std::move(writer));
         return out->file_;
     };
     MOTIONRACK_TRY(out->recorder_, Recorder::create(rack, settings));

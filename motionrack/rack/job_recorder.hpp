@@ -9,6 +9,7 @@
 #include <motionrack/rack/recorder.hpp>
 #include <motionrack/trace/recording.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace motionrack::rack {
@@ -34,16 +35,14 @@ class JobRecorder {
   private:
     /// Writes the recorder's events to the file of the job.
     struct RecordingSink final : ChangeSink {
-        RecordingSink(trace::RecordingWriter file, Instant start);
+        explicit RecordingSink(trace::RecordingWriter file) : writer(std::move(file)) {}
         void change(std::size_t index, std::int64_t value, Instant at) override { writer.event(index, at, value); }
-        void settle(Instant at) override;
+        void settle(Instant at) override { writer.settle(at); }
         Result<void> close(Instant at) override;
         bool can_end_again() const override { return writer.is_open(); }
 
         trace::RecordingWriter writer;
         trace::RecordingEnd end;  ///< set before close()
-        Instant began, next_flush;
-        std::uint64_t flushed_events = 0;
     };
 
     std::shared_ptr<RecordingSink> file_;

@@ -94,6 +94,7 @@ class Hdf5Sink final : public ChangeSink {
     explicit Hdf5Sink(trace::RecordingWriter writer) : writer_(std::move(writer)) {}
 
     void change(std::size_t index, std::int64_t value, Instant at) override { writer_.event(index, at, value); }
+    void settle(Instant at) override { writer_.settle(at); }
     Result<void> close(Instant end) override {
         trace::RecordingEnd what;
         what.at = end;

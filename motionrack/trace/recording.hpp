@@ -115,6 +115,9 @@ class RecordingWriter {
     void input(const RecordedInput& input);
     /// Makes all data up to `now` readable, even if the program is killed afterwards.
     void flush(Instant now);
+    /// Notifies the writer that all events before `now` were added: flushes after a second, later after each tenth of
+    /// the recorded time, at the latest after a million events.
+    void settle(Instant now);
     std::uint64_t events() const { return events_; }
     /// Ends the file for good, even on an error: later data is ignored, and another call returns the result of the
     /// first. Errors: io, the first error since the file was created.
@@ -134,7 +137,8 @@ class RecordingWriter {
     std::vector<Signal> signals_;
     std::unique_ptr<Samples> samples_;  ///< nullptr: not open
     hdf5::Writer input_times_, input_texts_, flushed_;
-    std::uint64_t events_ = 0;
+    Instant began_{}, next_flush_{};
+    std::uint64_t events_ = 0, flushed_events_ = 0;
     bool good_ = true;
     Result<void> ended_;  ///< result of close()
 };

@@ -11,6 +11,9 @@ namespace motionrack::trace {
 namespace {
 
 constexpr double tick_s = 1e-10;
+// Data lost when the program is killed: the last tenth of the recorded time, or this number of events.
+constexpr std::uint64_t max_unflushed = 1'000'000;
+constexpr Duration min_flush_period = whole_seconds(1);
 // A chunk flushed before it is full is rewritten elsewhere; smaller chunks waste less space.
 constexpr std::size_t edge_chunk = 1 << 12, level_chunk = 1 << 9, sample_chunk = 1 << 10;
 constexpr std::size_t edge_buffer = 1 << 12, level_buffer = 1 << 7, sample_buffer = 1 << 9;
@@ -78,6 +81,8 @@ RecordingWriter::~RecordingWriter() = default;
 
 Result<RecordingWriter> RecordingWriter::create(const std::string& path, const RecordingHead& head, Instant began) {
     RecordingWriter out;
+    out.began_ = began;
+    out.next_flush_ = began + min_flush_period;
     MOTIONRACK_TRY(out.file_, hdf5::Hdf5File::create(path));
     hdf5::Hdf5File& file = out.file_;
     file.set("/", "format", "motionrack recording");
@@ -199,6 +204,13 @@ void RecordingWriter::flush(Instant now) {
     const std::int64_t at = now.count();
     good_ = flushed_.append(&at, 1) && good_;
     file_.flush();
+}
+
+void RecordingWriter::settle(Instant now) {
+    if (now < next_flush_ && events_ - flushed_events_ < max_unflushed) return;
+    flush(now);
+    flushed_events_ = events_;
+    next_flush_ = now + std::max(min_flush_period, (now - began_) / 10);
 }
 
 Result<void> RecordingWriter::close(const RecordingEnd& end) {

@@ -126,6 +126,25 @@ TEST(CHdf5, AFullDiskAndAMissingFolderAreReported) {
     std::filesystem::remove(csv);
 }
 
+TEST(CHdf5, AnInterruptedRecordingIsReadableUpToItsLastSecond) {
+    const std::string h5 = temporary("cut.h5"), seen = temporary("cut_seen.h5");
+    World world;
+    world.set_up(1, 4000);
+    world.command(1, 0x06, 500'000);
+    ASSERT_EQ(mr_trace_start(world, h5.c_str(), "X.step"), MR_OK) << mr_last_error();
+    world.write(0x00, 0x0120);
+    world.pass(3'900'000'000);
+    std::filesystem::copy_file(h5 + ".incomplete", seen);  // as a program leaves it that is killed now
+    const auto recording = trace::RecordingReader::open(seen);
+    ASSERT_TRUE(recording) << recording.error().text();
+    EXPECT_FALSE(recording->whole());
+    EXPECT_GE(recording->known_to() - recording->began(), milliseconds(2'800));
+    EXPECT_GT(read(*recording, "X.step").size(), 100'000u);
+    EXPECT_EQ(mr_trace_stop(world), MR_OK) << mr_last_error();
+    std::filesystem::remove(h5);
+    std::filesystem::remove(seen);
+}
+
 TEST(CHdf5, ALostRecordingAndARefusedNextOneLeaveTheRackRunning) {
     const std::filesystem::path folder = temporary("gone");
     std::filesystem::create_directory(folder);
