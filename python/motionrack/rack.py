@@ -71,7 +71,8 @@ class Rack:
             self._world.set_card(name, key, float(value))
 
     def close(self) -> None:
-        """Ends the rack and frees it; a running recording ends. All its calls are Refused afterwards."""
+        """Ends the rack and frees it; a running recording ends. All its calls are Refused afterwards. FileError if the
+        recording's file could not be completed; the rack is closed in any case."""
         if not self._world.closed():
             self._world.close()
 

@@ -150,7 +150,7 @@ void bind_moving(py::class_<RackHandle, Shared>& world) {
         .def("close",
              [](RackHandle& w) {
                  const RackLock turn(w, RackLock::Access::run);
-                 w.close();
+                 value_of(w.close());
              })
         .def("start", [](RackHandle& w) { run_exclusive(w, [&] { w.running(); }); })
         .def(

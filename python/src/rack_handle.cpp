@@ -56,11 +56,12 @@ void RackHandle::build() {
 }
 
 RackHandle::~RackHandle() {
-    close();
+    static_cast<void>(close());
 }
 
-void RackHandle::close() {
-    if (recorder_) static_cast<void>(end_waves());
+Result<void> RackHandle::close() {
+    Result<void> ended;
+    if (recorder_) ended = end_waves();
     sampler_.reset();
     samples_.reset();
     recorder_.reset();
@@ -70,6 +71,7 @@ void RackHandle::close() {
     tap_.reset();
     job_.reset();
     plan_.reset();
+    return ended;
 }
 
 rack::Rack& RackHandle::rack() {

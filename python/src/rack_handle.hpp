@@ -44,7 +44,8 @@ class RackHandle final : public Host {
     bool started() const { return rack_ && rack_->started(); }
     bool closed() const { return rack_ == nullptr; }
     Instant now() override { return rack().kernel().now(); }
-    void close();
+    /// Errors: io if the recording of waves cannot be completed; the rack is closed in any case.
+    Result<void> close();
 
     // ---- before the start
     /// "X.limit_plus=0@0.5s": see FaultSchedule. Errors: refused in a started rack, and those of the schedule; then no

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import motionrack
 import numpy as np
-from motionrack import InvalidInput, Rack, Refused
+from motionrack import FileError, InvalidInput, Rack, Refused
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 SIGNALS = ("X.position_mm", "X.position_pulses", "motion.x.LP", "motion.x.CV", "X.limit_plus", "motion.RR0")
@@ -133,6 +133,21 @@ class Recordings(unittest.TestCase):
         self.assertGreater(texts[0].count(",X.step,1"), 700)
         self.assertGreater(texts[0].count(",Y.step,1"), 700)
         self.assertEqual(texts[0], texts[1])
+
+    def test_closing_a_rack_reports_a_failed_recording(self) -> None:
+        rack = moving()
+        with tempfile.TemporaryDirectory() as folder:
+            rack.waves(f"{folder}/a.vcd", "X.*")
+            rack.advance(ms=10)
+        with self.assertRaises(FileError):  # its folder is gone
+            rack.close()
+        self.assertIn("closed", repr(rack))
+        rack.close()
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(FileError), moving() as rack, rack.waves(f"{folder}/a.vcd", "X.*"):
+                shutil.rmtree(folder)
+                rack.close()
+            Path(folder).mkdir()
 
     def test_a_recording_of_waves_has_the_version_that_wrote_it(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
