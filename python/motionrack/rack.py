@@ -278,8 +278,8 @@ class Rack:
                 rack.advance(1)
             recording.trace.plot()
 
-        Beyond ``max_samples`` instants, every second one is dropped and the period doubled. One recording at a time.
-        InvalidInput, Refused.
+        Beyond ``max_samples`` instants, every second one is dropped and the period doubled; the end is kept.
+        One recording at a time. InvalidInput, Refused.
         """
         return Recording(self._world, signals, ticks_of(period), max_samples, self.name)
 

@@ -60,23 +60,40 @@ SampleTable::SampleTable(const rack::Declaration& declared, std::size_t max_rows
 void SampleTable::change(std::size_t index, std::int64_t value, Instant at) {
     if (index == 0) {
         takes_row_ = begin_row(at);
-    } else if (takes_row_) {
+    } else {
         Column& column = columns_[index - 1];
-        if (column.is_whole())
-            column.counts.push_back(value);
-        else
-            column.values.push_back(column.channel.shown(value));
+        column.last = value;
+        if (takes_row_) column.keep_last();
     }
+}
+
+Result<void> SampleTable::close(Instant) {
+    if (ticks_.empty() || last_.count() == ticks_.back()) return {};
+    add_row(last_);
+    for (Column& column : columns_) column.keep_last();
+    return {};
+}
+
+void SampleTable::Column::keep_last() {
+    if (is_whole())
+        counts.push_back(last);
+    else
+        values.push_back(channel.shown(last));
 }
 
 /// Begins a row. Returns false for a second row at the same instant, and for rows that are dropped.
 bool SampleTable::begin_row(Instant at) {
+    last_ = at;
     if (!ticks_.empty() && at.count() == ticks_.back()) return false;
     if (++skipped_ < every_ && !ticks_.empty()) return false;
     skipped_ = 0;
+    add_row(at);
+    return true;
+}
+
+void SampleTable::add_row(Instant at) {
     if (ticks_.size() >= max_rows_) thin_out();
     ticks_.push_back(at.count());
-    return true;
 }
 
 void SampleTable::thin_out() {

@@ -81,9 +81,12 @@ class Recordings(unittest.TestCase):
     def test_too_many_instants_are_decimated_evenly(self) -> None:
         rack = moving()
         with rack.record("motion.x.LP", period=1e-4, max_samples=100) as recording:
-            rack.advance(ms=200)
+            rack.advance(ms=200.25)
         ticks = recording.trace.ticks
-        self.assertLessEqual(len(ticks), 101)
+        self.assertEqual(ticks[-1], rack.ticks, "the end is kept")
+        self.assertEqual(recording.trace["motion.x.LP"][-1], rack.peek("motion.x.LP"))
+        self.assertEqual(len(recording.trace["motion.x.LP"]), len(ticks))
+        self.assertLessEqual(len(ticks), 100)
         self.assertGreater(len(ticks), 40)
         self.assertEqual(len(set(np.diff(ticks)[:-1])), 1)
 
