@@ -9,25 +9,6 @@ from . import _core
 from .errors import Refused
 from .trace import Trace
 
-_ENDS = (
-    ("_mm_s", "mm/s"),
-    ("_deg_s", "deg/s"),
-    ("_mm", "mm"),
-    ("_deg", "deg"),
-    ("_nm", "nm"),
-    ("_us", "us"),
-    ("_v", "V"),
-    ("_hz", "Hz"),
-    ("_j", "J"),
-    ("_counts", "counts"),
-    ("_pulses", "pulses"),
-)
-
-
-def unit_of(signal: str) -> str:
-    """Returns the unit at the end of a quantity's name; ``""``: none."""
-    return next((unit for end, unit in _ENDS if signal.endswith(end)), "")
-
 
 class _Open:
     """A recording from its creation until it is stopped, at the latest at the end of its ``with`` block."""
@@ -63,10 +44,8 @@ class Recording(_Open):
     def stop(self) -> Trace:
         """Ends the recording with a last sample at this instant."""
         if self._trace is None:
-            ticks, signals = self._world.end_samples()
-            self._trace = Trace(
-                ticks, signals, {name: unit_of(name) for name in signals}, self._world.trace_hash(), self._title
-            )
+            ticks, signals, units = self._world.end_samples()
+            self._trace = Trace(ticks, signals, units, self._world.trace_hash(), self._title)
             self._runs = False
         return self._trace
 

@@ -45,11 +45,13 @@ py::array_t<T> array_of(const std::vector<T>& values) {
 }
 
 py::tuple samples_of(const SampleTable& table) {
-    py::dict signals;
-    for (const SampleTable::Column& column : table.columns())
-        signals[py::str(column.channel.name)] =
-            column.is_whole() ? py::object(array_of(column.counts)) : py::object(array_of(column.values));
-    return py::make_tuple(array_of(table.ticks()), signals);
+    py::dict signals, units;
+    for (const SampleTable::Column& column : table.columns()) {
+        const py::str name(column.channel.name);
+        signals[name] = column.is_whole() ? py::object(array_of(column.counts)) : py::object(array_of(column.values));
+        units[name] = py::str(std::string(column.channel.unit));
+    }
+    return py::make_tuple(array_of(table.ticks()), signals, units);
 }
 
 /// Returns the quantities of the whole rack: {part: {name: meaning}}.

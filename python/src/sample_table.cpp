@@ -20,7 +20,11 @@ rack::SampledChannel channel_of(const std::string& name, bool whole, std::functi
 
 Result<rack::SampledChannel> find_channel(rack::Rack& rack, const rack::WireAccess& context, const std::string& name) {
     for (const rack::WireAccess::Named& wire : context.names())
-        if (wire.name == name) return channel_of(name, !wire.volts, [&context, name] { return *context.get(name); });
+        if (wire.name == name) {
+            rack::SampledChannel out = channel_of(name, !wire.volts, [&context, name] { return *context.get(name); });
+            if (wire.volts) out.channel.unit = "V";
+            return out;
+        }
     const std::size_t dot = std::min(name.find('.'), name.size());
     if (const rack::Card* card = rack.card(std::string_view(name).substr(0, dot));
         card != nullptr && dot < name.size()) {
@@ -48,6 +52,7 @@ Result<std::vector<rack::SampledChannel>> sampled_channels(rack::Rack& rack, con
     out.push_back({{"row"}, [] { return std::int64_t{0}; }});
     for (const std::string& name : names) {
         MOTIONRACK_TRY(rack::SampledChannel channel, find_channel(rack, context, name));
+        if (channel.channel.unit.empty()) channel.channel.unit = rack::unit_of_quantity(name);
         out.push_back(std::move(channel));
     }
     return out;

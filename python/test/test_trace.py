@@ -66,6 +66,24 @@ class Recordings(unittest.TestCase):
         for name in measured:
             self.assertEqual(recording.trace[f"{stage}.{name}"].dtype, np.float64, name)
 
+    def test_signals_have_their_units(self) -> None:
+        rack = Rack.from_file(EXAMPLES / "15_panel" / "demonstration.toml")
+        units = {
+            f"{card}.{name}": unit
+            for card, of in rack.cards.items()
+            if of.type == "rtc5"
+            for name, unit in (
+                ("mark_speed_bits_ms", "bits/ms"),
+                ("corrected_x_bits", "bits"),
+                ("encoder_speed_counts_ms", "counts/ms"),
+            )
+        }
+        self.assertTrue(units)
+        recording = rack.record(*units)
+        self.assertEqual(recording.stop().units, units)
+        board = Rack.from_text('card.b1 = "databoard4002"')
+        self.assertEqual(board.record("b1.vout", "b1.relay").stop().units, {"b1.vout": "V", "b1.relay": ""})
+
     def test_a_program_may_be_recorded_with_the_same_event_trace(self) -> None:
         text = "G21 G90\nG1 X5 F600\nM2\n"
         rack = Rack.template()
