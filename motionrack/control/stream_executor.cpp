@@ -71,6 +71,7 @@ void StreamExecutor::hold() {
     if (request_ == StopRequest::stop || state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused)
         return;
     if (!path_begun_ && !has_work()) {
+        request_ = StopRequest::none;
         state_ = ExecutionState::feed_hold;
         return;
     }
@@ -86,6 +87,8 @@ void StreamExecutor::resume() {
 
 void StreamExecutor::stop() {
     if (!path_begun_ && !has_work()) {
+        request_ = StopRequest::none;  // of a hold during a probing move that has ended
+        stop_flag_ = false;
         // A pause with no pending entry would block the next line.
         if (state_ == ExecutionState::feed_hold || state_ == ExecutionState::paused) state_ = ExecutionState::idle;
         return;

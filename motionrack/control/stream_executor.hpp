@@ -85,7 +85,8 @@ class StreamExecutor {
     /// start at its end. The move must be within the limits of the axes. Requires has_room().
     void move(const Move& move);
     /// Decelerates to a stop on the path; drive() then returns feed_hold. Without motion the state is feed_hold at
-    /// once, and later lines wait. A probing move is completed first.
+    /// once, and later lines wait. A probing move is completed first: the hold begins before the line after it, and
+    /// ends if there is none.
     void hold();
     /// Resumes after a feed hold or a pause.
     void resume();

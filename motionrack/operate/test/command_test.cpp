@@ -184,6 +184,29 @@ TEST(Machine, FailsAtALineThatAMissingContactHasMadeImpossible) {
     EXPECT_NEAR(o.x(), 25, 1e-2);
 }
 
+TEST(Machine, HoldsAfterAProbingMoveOnlyWhereALineFollows) {
+    Operated o(*rack::read_rack_file((source_root / "examples/16_probe/machine.toml").string()).config);
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90\nG38.3 X20 F1200\nG1 X25\nM2\n", "touch.ngc")); });
+    o.at(0.6, [](Machine& m) { EXPECT_TRUE(m.hold()); });
+    o.at(3, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::hold);
+        EXPECT_NEAR(m.status().axes[0].commanded, 20, 1e-2);
+        EXPECT_TRUE(m.resume());
+    });
+    o.at(4, [&](Machine& m) {
+        EXPECT_NEAR(o.x(), 25, 1e-2);
+        EXPECT_TRUE(m.line("G90 G38.3 X5 F1200", 1));
+    });
+    o.at(4.5, [](Machine& m) { EXPECT_TRUE(m.hold()); });
+    o.at(6, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::standstill);
+        EXPECT_NEAR(o.x(), 5, 1e-2);
+        EXPECT_TRUE(m.line("G90 G1 X10 F1200", 2));
+    });
+    o.run(7);
+    EXPECT_NEAR(o.x(), 10, 1e-2);
+}
+
 /// More lines than the queue takes, so that the impossible one is read while those before it are executed.
 std::string line_read_in_motion() {
     std::string program = "G21 G90\nG38.3 X20 F1200\n";

@@ -242,11 +242,12 @@ struct Fed {
             }
             state = stream->drive(next < lines.size());
             if (state && *state == control::ExecutionState::waiting) rack.cards().front()->host().pass(milliseconds(1));
-            if (state && *state == control::ExecutionState::feed_hold) stream->resume();
+            if (state && *state == control::ExecutionState::feed_hold) held_at.push_back(x()), stream->resume();
         } while (state && (*state != control::ExecutionState::idle || next < lines.size()));
     }
     double x() { return rack.axes()[0].machine->position(rack.kernel().now()); }
     std::function<void()> on_slice;
+    std::vector<double> held_at;  ///< positions of X
 };
 
 class ProbingByLines : public testing::TestWithParam<const char*> {
@@ -311,6 +312,41 @@ TEST_P(ProbingByLines, AStopEndsItAndAFeedHoldWaitsForItsEnd) {
     ASSERT_TRUE(held.state) << held.state.error().message;
     EXPECT_TRUE(held.stream->last_probe().outcome.hit);
     EXPECT_EQ(held.x(), 20);
+}
+
+TEST_P(ProbingByLines, AFeedHoldInItHoldsTheLineBehindItAndNoLaterOne) {
+    for (const bool is_alone : {true, false}) {
+        SCOPED_TRACE(is_alone);
+        Fed fed(config("x_min_mm = 100\n"));
+        bool asked = false;
+        fed.on_slice = [&] {
+            if (!asked && fed.x() > 50) fed.stream->hold(), asked = true;
+        };
+        fed.drive(is_alone ? std::vector<std::string>{"G21 G90", "G38.2 X250 F3000"}
+                           : std::vector<std::string>{"G21 G90", "G38.2 X250 F3000", "G1 X20", "G1 X15"});
+        EXPECT_TRUE(asked);
+        fed.drive({"G1 X10"});
+        ASSERT_TRUE(fed.state) << fed.state.error().message;
+        EXPECT_EQ(fed.held_at.size(), is_alone ? 0u : 1u);
+        if (!is_alone) EXPECT_GT(fed.held_at.at(0), 100);
+        EXPECT_EQ(fed.x(), 10);
+    }
+}
+
+TEST_P(ProbingByLines, AStopThatMeetsItsEndLeavesRoomForLines) {
+    for (const double beyond : {0.01, 0.4, 0.8, 1.1, 1.2}) {
+        SCOPED_TRACE(beyond);
+        Fed fed(config("x_min_mm = 100\n"));
+        bool asked = false;
+        fed.on_slice = [&] {
+            if (!asked && fed.x() > 100 + beyond) fed.stream->stop(), asked = true;
+        };
+        fed.drive({"G21 G90", "G38.2 X250 F3000"});
+        ASSERT_TRUE(fed.state) << fed.state.error().message;
+        ASSERT_TRUE(fed.stream->has_room());
+        fed.drive({"G1 X10"});
+        EXPECT_EQ(fed.x(), 10);
+    }
 }
 
 TEST(Probing, NeedsAProbe) {
