@@ -23,7 +23,10 @@ MoveQueue::MoveQueue(const MoveQueueSettings& settings)
 
 // ---- reading
 
-void MoveQueue::read_line(gcode::Interpreter& interpreter) {
+void MoveQueue::read_line(gcode::Interpreter& interpreter, const gcode::WorkFrame* earlier) {
+    // Without an entry before it, the line is executed now.
+    if (earlier != nullptr && !entries_.empty() && entries_.back().earlier_offsets == nullptr)
+        entries_.back().earlier_offsets = std::make_shared<const gcode::WorkFrame>(*earlier);
     unpulled_ = line_begins_ = true;
     pull(interpreter);
 }
@@ -154,13 +157,17 @@ void MoveQueue::pop_before(std::int64_t number) {
 
 // ---- standstill
 
-void MoveQueue::clear(const Point& position) {
+std::shared_ptr<const gcode::WorkFrame> MoveQueue::clear(const Point& position) {
+    std::shared_ptr<const gcode::WorkFrame> earlier;
+    for (const QueueEntry& entry : entries_)
+        if (earlier = entry.earlier_offsets; earlier != nullptr) break;
     entries_.clear();
     cutting_.reset();
     moves_ = 0;
     unpulled_ = probe_waits_ = false;
     planned_ = submitted_ = 0;
     read_to_ = position;
+    return earlier;
 }
 
 void MoveQueue::end_probe(const Point& position) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <motionrack/control/gcode/interpreter.hpp>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/path_limits.hpp>
@@ -26,6 +27,8 @@ struct QueueEntry {
     std::int64_t number = 0;  ///< number of a move in its plan, if the plan counts them
     bool last = true;         ///< last slice of its move
     bool by_hand = false;     ///< the move does not come from a line
+    /// The offsets until here, if a line behind the entry changes them.
+    std::shared_ptr<const gcode::WorkFrame> earlier_offsets = nullptr;
     bool is_probe() const { return step.probe != gcode::Probe::none; }
     bool is_overridable() const { return !by_hand && step.overridable; }
     bool is_move() const { return step.kind == gcode::CanonCallKind::move && !is_probe(); }
@@ -52,8 +55,9 @@ class MoveQueue {
     // ---- reading
     /// Returns true if another line can be read. After a probing line only when its move has ended.
     bool has_room() const { return entries_.size() < settings_.max_entries && !unpulled_ && !probe_waits_; }
-    /// Reads the calls of a new line, as far as there is room.
-    void read_line(gcode::Interpreter& interpreter);
+    /// Reads the calls of a new line, as far as there is room. `earlier`: the offsets before the line, if it changes
+    /// them.
+    void read_line(gcode::Interpreter& interpreter, const gcode::WorkFrame* earlier = nullptr);
     /// Reads further calls of the last line, as far as there is room.
     void pull(gcode::Interpreter& interpreter);
     /// Adds a move that does not come from a line.
@@ -110,8 +114,9 @@ class MoveQueue {
     void on_event(OnEvent call) { on_event_ = std::move(call); }
 
     // ---- standstill
-    /// Discards all entries and unread calls; the next entry starts at `position`.
-    void clear(const Point& position);
+    /// Discards all entries and unread calls; the next entry starts at `position`. Returns the offsets before the first
+    /// line that changes them and was not reached; null: there is none.
+    std::shared_ptr<const gcode::WorkFrame> clear(const Point& position);
     /// Removes a probing move that has ended at `position`.
     void end_probe(const Point& position);
     /// Keeps the remaining path: removes the part before `position`, where the axes were stopped within the

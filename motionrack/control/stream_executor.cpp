@@ -35,21 +35,23 @@ StreamExecutor::StreamExecutor(AxisGroup& axes, Interrupt& host, const StreamExe
 
 gcode::Outcome<void> StreamExecutor::line(std::string_view text, std::int32_t number) {
     text_ = text;
+    const gcode::WorkFrame earlier = interpreter_.frame();
     if (gcode::Outcome<void> read = interpreter_.line(text_, number); !read) return read;
-    queue_.read_line(interpreter_);
+    queue_.read_line(interpreter_, interpreter_.changes_offsets() ? &earlier : nullptr);
     return {};
 }
 
 gcode::Outcome<void> StreamExecutor::line(std::string_view text, std::int32_t number,
                                           gcode::ProgramFlow& program_flow) {
     text_ = text;
+    const gcode::WorkFrame earlier = interpreter_.frame();
     gcode::Outcome<void> read = interpreter_.line(text_, number, gcode::Language::program);
     if (!read) {
         program_flow.line_rejected(text_, read.error());
         return read;
     }
     if (gcode::Outcome<void> taken = program_flow.line_accepted(interpreter_); !taken) return taken;
-    queue_.read_line(interpreter_);
+    queue_.read_line(interpreter_, interpreter_.changes_offsets() ? &earlier : nullptr);
     return {};
 }
 
@@ -236,7 +238,8 @@ void StreamExecutor::forget() {
     const Point position = axes_->commanded_position();
     request_ = StopRequest::none;
     stop_flag_ = false;
-    queue_.clear(position);
+    // Offsets outlive a reset, so those of lines that were only read must not apply.
+    if (const auto earlier = queue_.clear(position)) interpreter_.restore_offsets(*earlier);
     state_ = ExecutionState::idle;
     interpreter_.reset_after_program();
     interpreter_.resync_position(position);

@@ -90,8 +90,8 @@ class StreamExecutor {
     void hold();
     /// Resumes after a feed hold or a pause.
     void resume();
-    /// Decelerates to a stop on the path and discards everything not executed. Accepted in every state; drive() then
-    /// returns idle.
+    /// Decelerates to a stop on the path and discards everything not executed, offsets included. Accepted in every
+    /// state; drive() then returns idle.
     void stop();
     /// Sets the feed override and the rapid override, clamped to 0.01 .. 2 and 0.01 .. 1. A whole rapid that is faster
     /// stops on its path and continues by itself; a slower one ends as it was submitted.

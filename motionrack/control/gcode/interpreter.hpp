@@ -48,6 +48,12 @@ class Interpreter {
     /// (block().has_o_word) has no calls; ProgramFlow interprets it.
     Outcome<void> line(std::string_view text, std::int32_t number, Language language = Language::words);
 
+    /// Returns true if the last line set offsets: G10, G92, G28.1, G30.1, G43, G49.
+    bool changes_offsets() const { return state_.offsets.is_frame_edited(); }
+    /// Restores work offsets, rotations, G92, G28 and G30 of an earlier frame(), because the lines since then are not
+    /// executed.
+    void restore_offsets(const WorkFrame& earlier) { state_.offsets.restore(earlier, modes().system); }
+
     /// Returns the next call of the last line, valid until the next pull(); null if there is none.
     const CanonCall* pull() { return state_.pull(); }
 

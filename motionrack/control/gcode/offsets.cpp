@@ -27,6 +27,16 @@ void Offsets::reset_rotation(int system) {
     frame_.activate(system);
 }
 
+void Offsets::restore(const WorkFrame& earlier, int system) {
+    frame_.work = earlier.work;
+    frame_.rotation_deg = earlier.rotation_deg;
+    frame_.g92 = earlier.g92;
+    frame_.g92_saved = earlier.g92_saved;
+    frame_.g28 = earlier.g28;
+    frame_.g30 = earlier.g30;
+    frame_.activate(system);
+}
+
 void Offsets::set_probe_result(bool hit, const Point& at) {
     frame_.probe = at;
     frame_.probe_hit = hit;

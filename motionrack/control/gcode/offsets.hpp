@@ -29,6 +29,7 @@ class Offsets {
     // Changes outside of a line.
     void activate(int system) { frame_.activate(system); }
     void reset_rotation(int system);
+    void restore(const WorkFrame& earlier, int system);
     void set_probe_result(bool hit, const Point& at);
 
   private:

@@ -48,6 +48,41 @@ TEST(Cancelling, AtStandstillDoesNotEndLaterCommands) {
     EXPECT_NEAR(o.x(), 15, 1e-9);
 }
 
+TEST(Stop, DiscardsTheOffsetsOfLinesThatWereOnlyRead) {
+    const std::string program = "G21 G90\nG0 X0\nG1 X20 F600\nG10 L2 P1 X20\nM2\n";
+    Operated o(two_axes());
+    const auto offset = [&] { return o.machine->stream().fresh_settings().work_offsets[0][0]; };
+    o.at(0.1, [&](Machine& m) { EXPECT_TRUE(m.begin_program(program, "shift.ngc")); });
+    o.at(1.5, [](Machine& m) { m.stop({"anna", "", "STOP"}); });
+    o.at(2, [](Machine& m) { m.reset(); });
+    o.at(2.5, [&](Machine& m) {
+        EXPECT_GT(o.x(), 0);
+        EXPECT_LT(o.x(), 20);
+        EXPECT_EQ(offset(), 0);
+        EXPECT_TRUE(m.begin_program(program, "shift.ngc"));
+    });
+    o.run(7);
+    EXPECT_NEAR(o.x(), 20, 1e-3);
+    EXPECT_EQ(offset(), 20) << "all of it was executed";
+}
+
+TEST(Cancelling, DiscardsTheOffsetsOfLinesThatWereOnlyRead) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        int number = 0;
+        for (const char* line : {"G10 L2 P1 X1", "G1 X50 F600", "G10 L20 P1 X0", "G92 X5", "G28.1", "G1 X10", "G30.1"})
+            EXPECT_TRUE(m.line(line, ++number)) << line;
+    });
+    o.at(1, [](Machine& m) { m.cancel(); });
+    o.run(2);
+    const control::gcode::WorkFrame& frame = o.machine->stream().interpreter().frame();
+    EXPECT_EQ(frame.work[0], (control::Point{1})) << "executed before the motion";
+    EXPECT_EQ(frame.g92, control::Point{});
+    EXPECT_EQ(frame.g28, control::Point{});
+    EXPECT_EQ(frame.g30, control::Point{});
+    EXPECT_EQ(frame.offset[0], 1);
+}
+
 class HoldBeforeTheFirstLine : public testing::TestWithParam<bool> {
   protected:
     static rack::RackConfig config() {
