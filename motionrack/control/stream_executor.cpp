@@ -204,6 +204,7 @@ Result<ExecutionState> StreamExecutor::enter_standstill() {
         return state_;
     }
     if (request == StopRequest::hold && has_work()) return state_ = ExecutionState::feed_hold;
+    if (request == StopRequest::pause && has_work()) return state_ = ExecutionState::paused;
     while (!queue_.empty() && !queue_.front().is_move()) {
         if (queue_.front().is_probe()) return probe();
         const bool pause = queue_.front().step.kind == CanonCallKind::pause;

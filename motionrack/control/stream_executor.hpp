@@ -142,8 +142,9 @@ class StreamExecutor {
     void on_move(std::function<void(const Move& move, const Point& start)> call) { queue_.on_move(std::move(call)); }
 
   private:
-    /// replan: standstill on the path, then motion continues by itself with another override.
-    enum class StopRequest : std::uint8_t { none, replan, hold, stop };
+    /// replan: standstill on the path, then motion continues by itself with another override. pause: standstill before
+    /// the next line, after a probing move in single block.
+    enum class StopRequest : std::uint8_t { none, replan, pause, hold, stop };
 
     Result<void> fill_plan();
     bool stops_before(const QueueEntry& entry) const;

@@ -32,6 +32,7 @@ Result<ExecutionState> StreamExecutor::probe() {
     interpreter_.set_probe_result(outcome->hit, outcome->at, position);
     plan_->reset(*axes_, position);
     if (!last_probe_.failed()) {
+        if (single_block_ && request_ == StopRequest::none) request_ = StopRequest::pause;
         // A request takes effect in the next drive(): the line that it affects is read only now.
         return state_ = has_work() || request_ != StopRequest::none ? ExecutionState::running : ExecutionState::idle;
     }

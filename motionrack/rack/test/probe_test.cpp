@@ -243,11 +243,12 @@ struct Fed {
             state = stream->drive(next < lines.size());
             if (state && *state == control::ExecutionState::waiting) rack.cards().front()->host().pass(milliseconds(1));
             if (state && *state == control::ExecutionState::feed_hold) held_at.push_back(x()), stream->resume();
+            if (state && *state == control::ExecutionState::paused) paused_at.push_back(x()), stream->resume();
         } while (state && (*state != control::ExecutionState::idle || next < lines.size()));
     }
     double x() { return rack.axes()[0].machine->position(rack.kernel().now()); }
     std::function<void()> on_slice;
-    std::vector<double> held_at;  ///< positions of X
+    std::vector<double> held_at, paused_at;  ///< positions of X
 };
 
 class ProbingByLines : public testing::TestWithParam<const char*> {
@@ -331,6 +332,20 @@ TEST_P(ProbingByLines, AFeedHoldInItHoldsTheLineBehindItAndNoLaterOne) {
         if (!is_alone) EXPECT_GT(fed.held_at.at(0), 100);
         EXPECT_EQ(fed.x(), 10);
     }
+}
+
+TEST_P(ProbingByLines, InSingleBlockALineFollowsAfterAPause) {
+    Fed fed(config("x_min_mm = 100\n"));
+    fed.stream->set_single_block(true);
+    fed.drive({"G21 G90", "G38.2 X250 F3000", "G1 X20", "G1 X10"});
+    ASSERT_TRUE(fed.state) << fed.state.error().message;
+    ASSERT_EQ(fed.paused_at.size(), 2u);
+    EXPECT_GT(fed.paused_at[0], 100);
+    EXPECT_EQ(fed.paused_at[1], 20);
+    fed.drive({"G38.3 X30"});
+    fed.drive({"G1 X15"});
+    EXPECT_EQ(fed.paused_at.size(), 2u) << "no line waited at its end";
+    EXPECT_EQ(fed.x(), 15);
 }
 
 TEST_P(ProbingByLines, AStopThatMeetsItsEndLeavesRoomForLines) {
