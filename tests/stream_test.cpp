@@ -214,6 +214,25 @@ TEST_P(StreamExecutorTest, FeedHoldOnAnArcBeforeARotaryMoveEndsTheArc) {
     }
 }
 
+/// The second program dwells half a pulse beside its place, which lies on the path behind the dwell.
+TEST_P(StreamExecutorTest, ResumesADwellForItsRemainingTime) {
+    for (const char* program : {"G21 G90 F3000\nG1 X5\nG4 P2\nG1 X10\n", "G21 G90 F3000\nG1 X5.0007\nG4 P2\nG1 X0\n"}) {
+        SCOPED_TRACE(program);
+        Watched undisturbed(router(GetParam())), held(router(GetParam()));
+        drive_all(undisturbed, program);
+        bool asked = false;
+        held.on_slice = [&] {
+            if (!asked && held.seconds() > 1.2) held.stream->hold(), asked = true;
+        };
+        int waits = 0;
+        drive_all(held, program, [&] {
+            if (held.stream->state() == ExecutionState::feed_hold && ++waits == 500) held.stream->resume();
+        });
+        EXPECT_EQ(waits, 500);
+        EXPECT_NEAR(held.seconds(), undisturbed.seconds() + 0.5, 0.15);
+    }
+}
+
 TEST_P(StreamExecutorTest, StoppedDiscardsTheRestAndTheNextLineBeginsAtTheStopPosition) {
     Watched w(router(GetParam()));
     bool asked = false;

@@ -120,8 +120,8 @@ class MoveQueue {
     /// Removes a probing move that has ended at `position`.
     void end_probe(const Point& position);
     /// Keeps the remaining path: removes the part before `position`, where the axes were stopped within the
-    /// first `moves` submitted moves.
-    void keep_rest(const Point& position, std::int64_t moves);
+    /// first `moves` submitted moves. `seconds`: elapsed time of the first of them, by which a dwell becomes shorter.
+    void keep_rest(const Point& position, std::int64_t moves, double seconds);
 
   private:
     /// A move that is being sliced.

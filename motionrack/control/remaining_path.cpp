@@ -38,8 +38,20 @@ std::size_t MoveQueue::nearest_move(const Point& position, const PulsesPerUnit& 
     return nearest;
 }
 
-void MoveQueue::keep_rest(const Point& position, std::int64_t moves) {
+void MoveQueue::keep_rest(const Point& position, std::int64_t moves, double seconds) {
     while (!entries_.empty() && !entries_.front().is_move()) pop();
+    if (submitted_ > 0 && entries_.front().step.move.kind == MoveKind::dwell) {
+        // Its place does not tell a dwell from the moves beside it.
+        entries_.front().step.move.seconds -= seconds;
+        if (entries_.front().step.move.seconds > 0) {
+            entries_.front().start = position;
+            planned_ = submitted_ = 0;
+            return;
+        }
+        --moves;
+        pop();
+        while (submitted_ > 0 && !entries_.front().is_move()) pop();
+    }
     PulsesPerUnit pulses;
     for (std::size_t i = 0; i < pulses.size(); ++i) pulses[i] = settings_.limits[i].pulses_per_unit;
     for (std::size_t nearest = nearest_move(position, pulses, moves); nearest > 0; --nearest) pop();

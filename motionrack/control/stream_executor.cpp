@@ -222,8 +222,10 @@ Result<ExecutionState> StreamExecutor::interrupted(const Error& error) {
     stop_flag_ = false;
     path_begun_ = false;
     if (kept) {
+        const Instant stopped_at = host_.now();
         const Point position = axes_->commanded_position();
-        queue_.keep_rest(position, plan_->moves_begun());
+        const double seconds = block_began_ == never ? 0 : to_seconds(stopped_at - block_began_);
+        queue_.keep_rest(position, plan_->moves_begun(), seconds);
         plan_->interrupt(queue_);
         plan_->reset(*axes_, position);
         return state_ = holds ? ExecutionState::feed_hold : ExecutionState::running;
