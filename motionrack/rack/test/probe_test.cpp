@@ -329,7 +329,9 @@ TEST_P(ProbingByLines, AFeedHoldInItHoldsTheLineBehindItAndNoLaterOne) {
         fed.drive({"G1 X10"});
         ASSERT_TRUE(fed.state) << fed.state.error().message;
         EXPECT_EQ(fed.held_at.size(), is_alone ? 0u : 1u);
-        if (!is_alone) EXPECT_GT(fed.held_at.at(0), 100);
+        if (!is_alone) {
+            EXPECT_GT(fed.held_at.at(0), 100);
+        }
         EXPECT_EQ(fed.x(), 10);
     }
 }
