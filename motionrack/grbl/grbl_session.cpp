@@ -199,13 +199,16 @@ void GrblSession::watch_machine() {
 
 // ---- actions of other clients
 
-/// Handles a stop or reset by another client. A reset at standstill also locks if lines wait, since it has cleared the
-/// modes that they rely on.
+/// Handles a stop or reset by another client. A reset at standstill ends the lock of a stop, but not while lines from
+/// before it wait, or if it comes before the stop was carried out: the lines would be executed after it. It also locks
+/// if lines wait, since it has cleared the modes that they rely on.
 void GrblSession::stopped(const operate::StopReport& report) {
     if (state_.is_resetting_machine()) return;
-    const bool waits = state_.is_held() || reader_.has_line() || pending_.exists();
-    if (report.releases && state_.release()) return answers_.push(report.text + " The sender may continue");
-    if (report.releases && !waits) return;
+    const bool waits = state_.is_held() || reader_.has_input() || pending_.exists();
+    if (report.releases && !waits && !is_stop_pending(machine_)) {
+        if (state_.release()) answers_.push(report.text + " The sender may continue");
+        return;
+    }
     state_.lock_disabled_machine();
     lock(report.text);
 }

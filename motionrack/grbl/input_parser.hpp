@@ -88,10 +88,13 @@ class InputParser {
     /// line.
     std::optional<Line> next();
     std::size_t free_bytes() const { return max_waiting - waiting_.size(); }
+    /// Returns true if bytes wait, or if a line has begun and its end has not arrived.
+    bool has_input() const { return !waiting_.empty() || has_begun_line(); }
     void clear() { *this = InputParser(); }
 
   private:
     void read(char c);
+    bool has_begun_line() const { return !line_.text.empty() || line_.too_long || in_brackets_ || behind_semicolon_; }
 
     std::deque<char> waiting_;
     Line line_;

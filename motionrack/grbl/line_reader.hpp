@@ -16,6 +16,8 @@ class LineReader {
     /// Returns the line that next() has returned, and removes it. Requires has_line().
     Line take();
     bool has_line() const { return line_.has_value(); }
+    /// Returns true if a line waits, or if bytes of one have arrived.
+    bool has_input() const { return has_line() || parser_.has_input(); }
     std::size_t free_bytes() const { return parser_.free_bytes(); }
     /// Discards all input.
     void clear();

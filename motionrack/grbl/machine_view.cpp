@@ -35,6 +35,10 @@ bool has_alarm(const operate::Machine& machine) {
     return std::any_of(alarms.begin(), alarms.end(), [](const operate::Alarm& alarm) { return alarm.active; });
 }
 
+bool is_stop_pending(operate::Machine& machine) {
+    return machine.rack().stop_latch().latched() && machine.state() != MachineState::error_stop;
+}
+
 bool is_stop_ordered(operate::Machine& machine) {
     return machine.rack().stop_latch().is_ordered();
 }

@@ -1,0 +1,69 @@
+// Stops and resets by other clients, one at a time: their messages, the lines around them, and how they are released.
+#include "bench.hpp"
+
+namespace motionrack::grbl {
+namespace {
+
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string anna_stops = "ALARM:3\r\n[MSG:STOP by anna: ", unlocked = "[MSG:Caution: Unlocked]\r\nok\r\n";
+
+void stop_by_anna(Bench& b) {
+    b.machine->stop({"anna", "", "STOP"});
+}
+void reset_by_anna(Bench& b) {
+    b.machine->reset({"anna", "", "Reset"});
+}
+
+// ---- a stop and its reset within one slice
+
+TEST(StoppedSender, DrivesNoLineFromBeforeAResetThatPrecedesTheExecutionOfTheStop) {
+    Bench b(three_axes());
+    b.ask("G21\n", 0.1);
+    EXPECT_EQ(b.ask("!\nG1 X50 F600\n", 0.1), "ok\r\n");
+    stop_by_anna(b);
+    b.session->receive("G1 X60\n");
+    reset_by_anna(b);
+    EXPECT_THAT(b.ask("G1 X70\n", 0.5),
+                AllOf(StartsWith(anna_stops), EndsWith("]\r\nerror:9\r\nerror:9\r\nerror:9\r\n")));
+    EXPECT_EQ(b.axis(0), 0);
+    EXPECT_EQ(b.ask("$X\n", 0.2), unlocked);
+}
+
+TEST(StoppedSender, DrivesNoLineThatCameBetweenTheStopAndItsReset) {
+    Bench b(three_axes());
+    b.ask("G21\n", 0.1);
+    stop_by_anna(b);
+    b.session->receive("G1 X50 F600\n");
+    reset_by_anna(b);
+    EXPECT_THAT(b.ask("", 0.5), AllOf(StartsWith(anna_stops), EndsWith("]\r\nerror:9\r\n")));
+    EXPECT_EQ(b.axis(0), 0);
+}
+
+TEST(StoppedSender, DrivesNoLineThatHadBegunBeforeTheReset) {
+    Bench b(three_axes());
+    b.ask("G21\nG1 F600 X5", 0.1);
+    stop_by_anna(b);
+    b.pass(0.1);
+    reset_by_anna(b);
+    EXPECT_THAT(b.ask("0\n", 0.5), AllOf(StartsWith(anna_stops), EndsWith("]\r\nerror:9\r\n")));
+    EXPECT_EQ(b.axis(0), 0);
+}
+
+TEST(StoppedSender, ContinuesAfterAResetOnceItsLinesAreAnswered) {
+    Bench b(three_axes());
+    b.ask("G21\n", 0.1);
+    b.ask("!\nG1 X50 F600\n", 0.1);
+    stop_by_anna(b);
+    EXPECT_THAT(b.ask("", 0.1), AllOf(StartsWith(anna_stops), EndsWith("]\r\nerror:9\r\n")));
+    reset_by_anna(b);
+    EXPECT_THAT(b.ask("", 0.1), AllOf(StartsWith("[MSG:Reset by anna: "), EndsWith(". The sender may continue]\r\n")));
+    EXPECT_EQ(b.ask("G1 X1 F600\n"), "ok\r\n");
+    b.until_idle();
+}
+
+}  // namespace
+}  // namespace motionrack::grbl
