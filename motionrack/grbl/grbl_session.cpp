@@ -232,12 +232,14 @@ void GrblSession::lock(std::string_view why) {
 
 // ---- reset
 
-/// Resets the session. Motion of another client continues unless the settings permit stopping it. A stop in force ends
-/// only with a reset that the sender requests, not with an implicit reset of the Grbl.
+/// Resets the session. Motion of another client continues, and its stop stays in force, unless the settings permit
+/// otherwise. A stop in force ends only with a reset that the sender requests, not with an implicit reset of the Grbl.
 void GrblSession::reset(ResetCause cause) {
     const MachineState state = machine_.state();
     const bool is_stationary = operate::idle(state), latched = machine_.rack().stop_latch().latched();
-    const Result<void> may = is_stationary || !settings_.may_stop ? Result<void>() : settings_.may_stop();
+    const bool releases = cause == ResetCause::requested && (latched || state == MachineState::error_stop);
+    const bool must_ask = settings_.may_stop && (!is_stationary || releases);
+    const Result<void> may = must_ask ? settings_.may_stop() : Result<void>();
     const Alarm homing_alarm = cause == ResetCause::door ? alarm_homing_door : alarm_homing_reset;
     const Alarm number = state == MachineState::homing ? homing_alarm : is_moving(machine_) ? alarm_reset : alarm_none;
     if (may && number != alarm_none) alarm(number, false);
@@ -250,6 +252,7 @@ void GrblSession::reset(ResetCause cause) {
         machine_.programs().set_overrides(1, 1);
         state_.reset_machine(is_stationary && !latched ? operate::StopOrigin{} : settings_.source("^X"));
     }
+    if (!may && is_stop_ordered(machine_)) (void)state_.lock();
     begin_again(true);
     if (!may) answers_.push(may.error().message);
 }
@@ -322,7 +325,7 @@ bool GrblSession::finish_homing() {
 void GrblSession::finish_boot() {
     const bool after_reset = std::exchange(boot_, Boot::done) == Boot::reset;
     if (machine_.state() == MachineState::error_stop &&
-        !(after_reset && state_.needs_unlock() && is_stop_ordered(machine_))) {
+        !(after_reset && (state_.needs_unlock() || state_.is_stopped()) && is_stop_ordered(machine_))) {
         state_.require_reset();
         answers_.push(machine_.status().reason);
     }

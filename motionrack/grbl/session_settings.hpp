@@ -12,7 +12,8 @@ struct SessionSettings {
     int axes = 3;  ///< 3: X Y Z; 4: also A, in grblHAL's report format
     /// Succeeds if this sender may move the machine now. Empty: always.
     std::function<Result<void>()> take_control = {};
-    /// Succeeds if a reset by this sender may stop the present action of the machine. Empty: always.
+    /// Succeeds if a reset by this sender may stop the present action of the machine, or release its stop. Empty:
+    /// always.
     std::function<Result<void>()> may_stop = {};
     /// Returns the identity of this sender, for reports of its resets; `kind`: "^X", "$X".
     std::function<operate::StopOrigin(const char* kind)> source = [](const char* kind) {

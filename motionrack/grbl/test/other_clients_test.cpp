@@ -65,5 +65,24 @@ TEST(StoppedSender, ContinuesAfterAResetOnceItsLinesAreAnswered) {
     b.until_idle();
 }
 
+// ---- permissions
+
+TEST(StoppedSender, ReleasesNoStopByAResetWithoutControl) {
+    SessionSettings settings;
+    settings.may_stop = []() -> Result<void> { return fail(ErrorKind::refused, "Anna drives."); };
+    Bench b(three_axes(), settings);
+    b.ask("G21\n", 0.1);
+    stop_by_anna(b);
+    EXPECT_THAT(b.ask("", 0.1), StartsWith(anna_stops));
+    EXPECT_THAT(b.ask("\x18", 0.2), EndsWith("help]\r\n[MSG:Anna drives.]\r\n[MSG:'$H'|'$X' to unlock]\r\n"));
+    EXPECT_EQ(b.machine->state(), operate::MachineState::error_stop);
+    EXPECT_TRUE(b.machine->rack().stop_latch().latched());
+    EXPECT_EQ(b.ask("G1 X50 F600\n", 0.1), "error:9\r\n");
+    reset_by_anna(b);
+    EXPECT_THAT(b.ask("", 0.1), EndsWith(". The sender may continue]\r\n"));
+    EXPECT_EQ(b.ask("G1 X1 F600\n"), "ok\r\n");
+    b.until_idle();
+}
+
 }  // namespace
 }  // namespace motionrack::grbl
