@@ -187,7 +187,7 @@ void GrblSession::watch_machine() {
     gcode_.drop_executed_n_words();
     const control::ProbeReport& probe = machine_.stream().last_probe();
     const bool probed = reports_.report_probe();
-    if (state_.enters_error_stop() && !(state_.is_stopped() && !has_alarm(machine_)) &&
+    if (state_.enters_error_stop() && !(state_.is_stopped() && is_plain_stop(machine_)) &&
         !pending_.waits_for(PendingAction::homing)) {
         state_.end_hold();
         alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial)

@@ -30,17 +30,19 @@ bool limit_active(operate::Machine& machine, char letter) {
            contact_open(machine, fmt::format("{}.limit_plus", letter));
 }
 
-bool has_alarm(const operate::Machine& machine) {
-    const auto& alarms = machine.status().alarms;
-    return std::any_of(alarms.begin(), alarms.end(), [](const operate::Alarm& alarm) { return alarm.active; });
-}
-
 bool is_stop_pending(operate::Machine& machine) {
     return machine.rack().stop_latch().latched() && machine.state() != MachineState::error_stop;
 }
 
 bool is_stop_ordered(operate::Machine& machine) {
     return machine.rack().stop_latch().is_ordered();
+}
+
+bool is_plain_stop(operate::Machine& machine) {
+    // An alarm of the error stop has its sentence; others are about a door, an earlier run or the journal.
+    return is_stop_ordered(machine) && std::ranges::none_of(machine.status().alarms, [&](const operate::Alarm& alarm) {
+               return alarm.active && alarm.text == machine.status().reason;
+           });
 }
 
 int alarm_of_stop(operate::Machine& machine) {

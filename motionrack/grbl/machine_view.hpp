@@ -14,12 +14,12 @@ bool is_settled(const operate::Machine& machine);
 bool limit_active(operate::Machine& machine, char letter);
 /// Returns true if a contact exists at this wire and is open.
 bool contact_open(operate::Machine& machine, const std::string& wire);
-/// Returns true after a stop that was not commanded.
-bool has_alarm(const operate::Machine& machine);
 /// Returns true if a stop is in force that the machine has not carried out yet.
 bool is_stop_pending(operate::Machine& machine);
 /// Returns true if a STOP is in force and was the only cause: a sender ends it with $X.
 bool is_stop_ordered(operate::Machine& machine);
+/// Returns true in the error stop of such a STOP that raised no alarm, as it does if a position is lost.
+bool is_plain_stop(operate::Machine& machine);
 /// Returns N of ALARM:N for a machine that stopped by itself.
 int alarm_of_stop(operate::Machine& machine);
 /// Returns N of ALARM:N for a homing that has failed. Requires one.

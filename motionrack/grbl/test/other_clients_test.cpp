@@ -7,6 +7,7 @@ namespace {
 using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 const std::string anna_stops = "ALARM:3\r\n[MSG:STOP by anna: ", unlocked = "[MSG:Caution: Unlocked]\r\nok\r\n";
@@ -63,6 +64,24 @@ TEST(StoppedSender, ContinuesAfterAResetOnceItsLinesAreAnswered) {
     EXPECT_THAT(b.ask("", 0.1), AllOf(StartsWith("[MSG:Reset by anna: "), EndsWith(". The sender may continue]\r\n")));
     EXPECT_EQ(b.ask("G1 X1 F600\n"), "ok\r\n");
     b.until_idle();
+}
+
+// ---- a stop beside other causes
+
+TEST(StoppedSender, IsReleasedWhileAnAlarmOfAnotherCauseIsActive) {
+    Bench b(three_axes("[safety]\ndoor = true\n"));
+    b.ask("G21\n", 0.1);
+    ASSERT_TRUE(b.machine->wires().force("door", 0));
+    b.pass(0.1);
+    ASSERT_TRUE(b.machine->wires().force("door", 1));
+    b.pass(0.1);
+    ASSERT_TRUE(b.machine->status().alarms.at(0).active);
+    EXPECT_EQ(b.ask("G1 X100 F3000\n", 0.3), "ok\r\n");
+    stop_by_anna(b);
+    EXPECT_THAT(b.ask("G1 X0\n", 0.7), AllOf(StartsWith(anna_stops), EndsWith(" was stopped.]\r\nerror:9\r\n"),
+                                             Not(HasSubstr("Reset to continue"))));
+    EXPECT_EQ(b.ask("$X\n", 0.2), unlocked);
+    EXPECT_THAT(b.report(), StartsWith("<Idle|"));
 }
 
 // ---- permissions
