@@ -219,12 +219,14 @@ void GrblSession::lose_control(const std::string& to) {
 }
 
 /// Locks the session. Keeps waiting lines, which are answered with an error: dropping part of a line would make another
-/// line of it. A homing, or a line past the travel, raises its own alarm when it has ended.
+/// line of it. A homing raises its own alarm when it has ended, and so does a line past the travel, unless a stop is in
+/// force: then the machine enters its error stop instead of standstill.
 void GrblSession::lock(std::string_view why) {
     const bool locked_before = state_.lock();
     gcode_.drop_n_words();
     const bool alarms_later =
-        pending_.waits_for(PendingAction::homing) || pending_.waits_for(PendingAction::leaving_travel);
+        pending_.waits_for(PendingAction::homing) ||
+        (pending_.waits_for(PendingAction::leaving_travel) && !machine_.rack().stop_latch().latched());
     if (!locked_before && !alarms_later) answers_.alarm(alarm_reset);
     answers_.push(why);
     if (pending_.exists() && !alarms_later) pending_.finish(error_locked);
@@ -268,8 +270,8 @@ void GrblSession::begin_again(bool after_reset) {
 /// Sends the pending answer if its line has been executed. Returns true if it was sent.
 bool GrblSession::finish() {
     const MachineState state = machine_.state();
-    if (state_.needs_reset() || (state == MachineState::error_stop && pending_.action() != PendingAction::homing))
-        return false;
+    if (state_.needs_reset()) return false;
+    if (state == MachineState::error_stop && pending_.action() != PendingAction::homing) return finish_refused_reset();
     const bool is_stationary = is_settled(machine_) && state != MachineState::moving && state != MachineState::hold;
     if (!is_stationary) return false;
     switch (pending_.action()) {
@@ -294,6 +296,15 @@ bool GrblSession::finish() {
             break;
     }
     pending_.finish(error_none);
+    return true;
+}
+
+/// Answers an unlocking whose reset was refused, as while the emergency stop is pressed. Returns true if there was one.
+bool GrblSession::finish_refused_reset() {
+    if (pending_.action() != PendingAction::unlocking || !is_settled(machine_)) return false;
+    (void)state_.lock();
+    pending_.push(machine_.status().reason);
+    pending_.finish(error_locked);
     return true;
 }
 

@@ -76,6 +76,7 @@ class GrblSession {
     void reset(ResetCause cause);
     void begin_again(bool after_reset);
     bool finish();
+    bool finish_refused_reset();
     bool finish_homing();
     void finish_boot();
     void startup();

@@ -84,6 +84,33 @@ TEST(StoppedSender, IsReleasedWhileAnAlarmOfAnotherCauseIsActive) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));
 }
 
+TEST(StoppedSender, IsToldThatTheEmergencyStopIsPressedWhenItUnlocks) {
+    Bench b(three_axes());
+    b.ask("G21\n", 0.1);
+    stop_by_anna(b);
+    b.ask("", 0.1);
+    ASSERT_TRUE(b.machine->wires().force("estop", 0));
+    b.ask("", 0.1);
+    EXPECT_THAT(b.ask("$X\nG1 X50 F600\n", 0.2),
+                AllOf(StartsWith("[MSG:Not reset: the emergency stop is still pressed."),
+                      EndsWith("]\r\nerror:9\r\nerror:9\r\n")));
+    ASSERT_TRUE(b.machine->wires().force("estop", 1));
+    EXPECT_EQ(b.ask("$X\n", 0.2), unlocked);
+    EXPECT_EQ(b.axis(0), 0);
+    EXPECT_THAT(b.report(), StartsWith("<Idle|"));
+}
+
+TEST(StoppedSender, HasItsLinePastTheTravelAnswered) {
+    Bench b(three_axes());
+    EXPECT_EQ(b.ask("G1 X100 F3000\n", 0.3), "ok\r\n");
+    b.session->receive("G1 X999\n");
+    stop_by_anna(b);
+    EXPECT_THAT(b.ask("G1 X0\n", 0.7),
+                AllOf(StartsWith(anna_stops), EndsWith(" was stopped.]\r\nerror:9\r\nerror:9\r\n")));
+    EXPECT_EQ(b.ask("$X\n", 0.2), unlocked);
+    EXPECT_THAT(b.report(), StartsWith("<Idle|"));
+}
+
 // ---- permissions
 
 TEST(StoppedSender, ReleasesNoStopByAResetWithoutControl) {
