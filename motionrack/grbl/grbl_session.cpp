@@ -240,7 +240,8 @@ void GrblSession::reset(ResetCause cause) {
     const MachineState state = machine_.state();
     const bool is_stationary = operate::idle(state), latched = machine_.rack().stop_latch().latched();
     const bool releases = cause == ResetCause::requested && (latched || state == MachineState::error_stop);
-    const bool must_ask = settings_.may_stop && (!is_stationary || releases);
+    const bool holds = state == MachineState::homing && cause != ResetCause::requested;  // ! and the door end a homing
+    const bool must_ask = settings_.may_stop && !holds && (!is_stationary || releases);
     const Result<void> may = must_ask ? settings_.may_stop() : Result<void>();
     const Alarm homing_alarm = cause == ResetCause::door ? alarm_homing_door : alarm_homing_reset;
     const Alarm number = state == MachineState::homing ? homing_alarm : is_moving(machine_) ? alarm_reset : alarm_none;

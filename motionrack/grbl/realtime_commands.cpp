@@ -3,6 +3,8 @@
 
 namespace motionrack::grbl {
 
+using operate::MachineState;
+
 std::optional<ResetCause> RealtimeCommands::act(Realtime what) {
     const operate::Status& status = on_.machine.status();
     if (what != Realtime::status) on_.reports.answer_request();
@@ -17,7 +19,7 @@ std::optional<ResetCause> RealtimeCommands::act(Realtime what) {
         case Realtime::door:
             return open_door();
         case Realtime::jog_cancel:
-            if (on_.state.now() == State::jog) on_.machine.cancel();
+            if (is_jogging()) on_.machine.cancel();
             break;
         case Realtime::cycle_start:
             resume();
@@ -55,33 +57,34 @@ void RealtimeCommands::switch_coolant(bool mist, bool flood) {
     on_.reports.repeat_overrides();
 }
 
+bool RealtimeCommands::is_jogging() const {
+    return on_.machine.state() == MachineState::jogging || on_.state.now() == State::jog;
+}
+
+/// Holds a moving machine, whoever moves it and in whatever state this session is: a stop needs no permission.
 std::optional<ResetCause> RealtimeCommands::hold() {
-    switch (on_.state.now()) {
-        case State::idle:
-            on_.state.hold(true);
-            break;
-        case State::run:
-            on_.state.hold(on_.machine.hold().has_value());
-            break;
-        case State::jog:
-            on_.machine.cancel();
-            break;
-        case State::home:
-            return ResetCause::implicit;
-        default:
-            break;
-    }
+    const State now = on_.state.now();
+    if (on_.machine.state() == MachineState::homing) return ResetCause::implicit;
+    if (is_jogging())
+        on_.machine.cancel();
+    else if (now == State::idle)
+        on_.state.hold(true);
+    else if (now == State::run)
+        on_.state.hold(on_.machine.hold().has_value());
+    else if (on_.machine.state() == MachineState::moving)
+        (void)on_.machine.hold();
     return std::nullopt;
 }
 
-/// Executes the door byte: holds motion until the sender resumes. No contact is read, so the door counts as closed.
+/// Executes the door byte: holds motion, as hold(), until the sender resumes. No contact is read, so the door counts as
+/// closed.
 std::optional<ResetCause> RealtimeCommands::open_door() {
     const State now = on_.state.now();
-    if (now == State::home) return ResetCause::door;
+    if (on_.machine.state() == MachineState::homing) return ResetCause::door;
+    if (is_jogging()) on_.machine.cancel();
+    if (on_.machine.state() == MachineState::moving) (void)on_.machine.hold();
     if (now == State::alarm || now == State::check || now == State::sleep || now == State::door) return std::nullopt;
     on_.answers.push("Check Door");
-    if (now == State::jog) on_.machine.cancel();
-    if (now == State::run) (void)on_.machine.hold();
     on_.state.open_door();
     return std::nullopt;
 }
@@ -92,7 +95,7 @@ void RealtimeCommands::resume() {
     on_.state.end_hold();
     on_.overrides.end_spindle_stop();
     on_.reports.repeat_overrides();
-    if (on_.machine.state() == operate::MachineState::hold) (void)on_.machine.resume();
+    if (on_.machine.state() == MachineState::hold) (void)on_.machine.resume();
 }
 
 }  // namespace motionrack::grbl

@@ -33,6 +33,7 @@ class RealtimeCommands {
     [[nodiscard]] std::optional<ResetCause> act(Realtime what);
 
   private:
+    bool is_jogging() const;
     std::optional<ResetCause> hold();
     std::optional<ResetCause> open_door();
     void resume();

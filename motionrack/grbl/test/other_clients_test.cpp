@@ -111,7 +111,58 @@ TEST(StoppedSender, HasItsLinePastTheTravelAnswered) {
     EXPECT_THAT(b.report(), StartsWith("<Idle|"));
 }
 
+// ---- holds by a locked sender
+
+/// Locks the sender: another client takes control during its jog, and the jog ends.
+void lock_by_anna(Bench& b) {
+    b.ask("$J=X300 F3000\n", 0.1);
+    b.session->lose_control("anna");
+    b.machine->cancel();
+    EXPECT_EQ(b.ask("", 0.5), "ALARM:3\r\n[MSG:anna has taken control]\r\n");
+    EXPECT_EQ(b.machine->state(), operate::MachineState::standstill);
+}
+
+/// Parameter: the byte of the locked sender.
+class LockedSender : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(By, LockedSender, testing::Values("!", "\x84", "\x85"));
+
+TEST_P(LockedSender, EndsAJogOfAnotherClient) {
+    Bench b(three_axes());
+    lock_by_anna(b);
+    ASSERT_TRUE(b.machine->manual().jog_to({200, 0, 0}, 50));
+    b.pass(0.3);
+    ASSERT_EQ(b.machine->state(), operate::MachineState::jogging);
+    EXPECT_EQ(b.ask(GetParam(), 0.5), "");
+    EXPECT_EQ(b.machine->state(), operate::MachineState::standstill);
+    EXPECT_LT(b.axis(0), 100);
+}
+
+TEST_P(LockedSender, HoldsAMachineThatAnotherClientMoves) {
+    if (std::string_view(GetParam()) == "\x85") return;  // it cancels jogs alone
+    Bench b(three_axes());
+    lock_by_anna(b);
+    ASSERT_TRUE(b.machine->line("G1 X200 F3000", 1));
+    b.pass(0.3);
+    ASSERT_EQ(b.machine->state(), operate::MachineState::moving);
+    EXPECT_EQ(b.ask(GetParam(), 0.5), "");
+    EXPECT_EQ(b.machine->state(), operate::MachineState::hold);
+    EXPECT_THAT(b.report(), StartsWith("<Alarm|"));
+    EXPECT_LT(b.axis(0), 100);
+}
+
 // ---- permissions
+
+TEST(SenderWithoutControl, EndsAHomingByItsHold) {
+    SessionSettings settings;
+    settings.may_stop = []() -> Result<void> { return fail(ErrorKind::refused, "Anna drives."); };
+    Bench b(router(), settings);
+    ASSERT_TRUE(b.machine->enable(true));
+    ASSERT_TRUE(b.machine->manual().home(""));
+    b.pass(0.5);
+    ASSERT_EQ(b.machine->state(), operate::MachineState::homing);
+    EXPECT_THAT(b.ask("!", 0.5), StartsWith("ALARM:6\r\n"));
+    EXPECT_EQ(b.machine->state(), operate::MachineState::standstill);
+}
 
 TEST(StoppedSender, ReleasesNoStopByAResetWithoutControl) {
     SessionSettings settings;
