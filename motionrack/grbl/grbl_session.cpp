@@ -80,6 +80,7 @@ void GrblSession::tick() {
 void GrblSession::greet() {
     reader_.clear();
     pending_.silence();
+    relies_on_modes_ = false;
     begin_again(false);
     work();
 }
@@ -167,7 +168,9 @@ control::gcode::Outcome<void> GrblSession::give(const std::string& text, std::in
         return tl::unexpected<Problem>(std::move(problem));
     }
     state_.enable_new_machine();
-    return gcode_.execute(text, n_word);
+    auto read = gcode_.execute(text, n_word);
+    relies_on_modes_ = relies_on_modes_ || read;
+    return read;
 }
 
 int GrblSession::refused(const Problem& problem) {
@@ -201,13 +204,15 @@ void GrblSession::watch_machine() {
 
 /// Handles a stop or reset by another client. A reset at standstill ends the lock of a stop, but not while lines from
 /// before it wait, or if it comes before the stop was carried out: the lines would be executed after it. It also locks
-/// if lines wait, since it has cleared the modes that they rely on.
+/// a sender that has lines waiting or has set modes, since it has cleared the modes that its next lines rely on.
 void GrblSession::stopped(const operate::StopReport& report) {
     if (state_.is_resetting_machine()) return;
     const bool waits = state_.is_held() || reader_.has_input() || pending_.exists();
     if (report.releases && !waits && !is_stop_pending(machine_)) {
-        if (state_.release()) answers_.push(report.text + " The sender may continue");
-        return;
+        // Senders begin with ^X: at standstill without an error stop it must not release another one.
+        const bool ends_lock = report.source.kind != "^X" || machine_.state() == MachineState::error_stop;
+        if (ends_lock && state_.release()) answers_.push(report.text + " The sender may continue");
+        if (!relies_on_modes_) return;
     }
     state_.lock_disabled_machine();
     lock(report.text);
@@ -223,6 +228,7 @@ void GrblSession::lose_control(const std::string& to) {
 /// force: then the machine enters its error stop instead of standstill.
 void GrblSession::lock(std::string_view why) {
     const bool locked_before = state_.lock();
+    relies_on_modes_ = false;
     gcode_.drop_n_words();
     const bool alarms_later =
         pending_.waits_for(PendingAction::homing) ||
@@ -249,11 +255,12 @@ void GrblSession::reset(ResetCause cause) {
     if (pending_.exists()) pending_.finish(error_none);
     reader_.clear();
     gcode_.reset();
+    relies_on_modes_ = false;
     state_.reset();
     overrides_.reset_spindle();
     if (may && (cause == ResetCause::requested || !latched)) {
         machine_.programs().set_overrides(1, 1);
-        state_.reset_machine(is_stationary && !latched ? operate::StopOrigin{} : settings_.source("^X"));
+        state_.reset_machine(settings_.source("^X"));
     }
     if (!may && is_stop_ordered(machine_)) (void)state_.lock();
     begin_again(true);

@@ -46,7 +46,7 @@ class GrblSession {
     /// discards everything else.
     void observe(std::string_view bytes);
     /// Handles a stop or reset by another client: rejects the sender's lines until it unlocks or resets, since they
-    /// were meant to follow the dropped lines. Called within the command.
+    /// were meant to follow the dropped lines, or rely on modes that were cleared. Called within the command.
     void stopped(const operate::StopReport& report);
     /// Handles the loss of control to the client `to`: rejects lines like stopped(), if lines were pending or the
     /// machine was active.
@@ -95,6 +95,7 @@ class GrblSession {
     RealtimeCommands realtime_;
     SystemCommands commands_;
     Boot boot_ = Boot::done;
+    bool relies_on_modes_ = false;  ///< a line of this sender was accepted since its last reset, greeting or lock
 };
 
 }  // namespace motionrack::grbl

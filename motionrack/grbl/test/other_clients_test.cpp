@@ -150,6 +150,39 @@ TEST_P(LockedSender, HoldsAMachineThatAnotherClientMoves) {
     EXPECT_LT(b.axis(0), 100);
 }
 
+// ---- resets at standstill
+
+TEST(IdleSender, IsLockedByAResetThatClearsTheModesItHasSet) {
+    Bench b(three_axes());
+    EXPECT_EQ(b.ask("G20 G91 G1 F10\n", 0.1), "ok\r\n");
+    reset_by_anna(b);
+    EXPECT_EQ(b.ask("X50\n", 0.2),
+              "ALARM:3\r\n[MSG:Reset by anna: the machine was in state 'standstill'.]\r\nerror:9\r\n");
+    EXPECT_EQ(b.axis(0), 0);
+    EXPECT_EQ(b.ask("$X\n", 0.2), unlocked);
+    reset_by_anna(b);
+    EXPECT_EQ(b.ask("", 0.1), "") << "it has set no mode since";
+}
+
+TEST(IdleSender, IsNotLockedByAResetBeforeItsFirstLine) {
+    Bench b(three_axes());
+    b.ask("$G\n");
+    reset_by_anna(b);
+    EXPECT_EQ(b.ask("", 0.1), "");
+    EXPECT_THAT(b.report(), StartsWith("<Idle|"));
+}
+
+TEST(IdleSender, IsLockedAndNotReleasedByResetsOfAnotherSender) {
+    Bench b(three_axes());
+    EXPECT_EQ(b.ask("G91\n", 0.1), "ok\r\n");
+    GrblSession other(*b.machine, {});
+    other.receive("\x18");
+    EXPECT_THAT(b.ask("", 0.1), StartsWith("ALARM:3\r\n[MSG:^X by a sender: "));
+    other.receive("\x18");
+    EXPECT_EQ(b.ask("", 0.1), "");
+    EXPECT_EQ(b.ask("X50\n", 0.1), "error:9\r\n");
+}
+
 // ---- permissions
 
 TEST(SenderWithoutControl, EndsAHomingByItsHold) {
