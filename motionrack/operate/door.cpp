@@ -15,14 +15,14 @@ Result<void> Door::check_closed(const char* what) const {
     return fail(ErrorKind::refused, fmt::format("{}: the door is open. Nothing was moved; close it first.", what));
 }
 
-std::optional<std::string> Door::take_opening(MachineState state, bool held) {
+std::optional<std::string> Door::take_opening(bool moves, bool held) {
     const bool open = contacts_.door_open();
     if (std::exchange(was_open_, open) || !open) return {};
     return fmt::format("The door was opened at {:.3f} s: {}, the spindle is off. Close it, then {}.",
                        to_seconds(contacts_.door_opened()),
-                       held                   ? "the feed is held"
-                       : is_stationary(state) ? "nothing was moving"
-                                              : "the motion was stopped",
+                       held    ? "the feed is held"
+                       : moves ? "the motion was stopped"
+                               : "nothing was moving",
                        held ? "resume" : "continue");
 }
 

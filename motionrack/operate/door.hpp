@@ -18,9 +18,9 @@ class Door {
 
     /// Refused while the door is open; `what` begins the message: "The program was not started: the door is open. ..."
     Result<void> check_closed(const char* what) const;
-    /// Returns the alarm text if the door was opened since the last call. It names the effect in this state. `held`: a
-    /// program is in feed hold because of the door or already before; a resume continues it.
-    std::optional<std::string> take_opening(MachineState state, bool held);
+    /// Returns the alarm text if the door was opened since the last call. It names the effect. `moves`: a motion is
+    /// stopped. `held`: a program is in feed hold because of the door or already before; a resume continues it.
+    std::optional<std::string> take_opening(bool moves, bool held);
     /// Stores the spindle and coolant states of `status` for give_back_tools(), unless some are stored.
     void keep_tools(const Status& status);
     /// Restores the stored spindle and coolant states, once.

@@ -41,15 +41,17 @@ void Machine::take_stop() {
     for (std::string& text : latch.contacts().take_alarms()) alarms_.raise("emergency stop", std::move(text));
     const bool in_work =
         (state() == MachineState::moving && !programs_.stream().last_probe().runs) || state() == MachineState::hold;
-    if (std::optional<std::string> opened = door_.take_opening(state(), in_work)) {
+    const bool by_writes = idle(state()) && manual_access_.moving_axis() != '\0';
+    if (std::optional<std::string> opened = door_.take_opening(by_writes || !is_stationary(state()), in_work)) {
         alarms_.raise("door", std::move(*opened));
         rack::react(rack_, rack::StopSource::stop_command);
         if (state() == MachineState::moving && in_work) programs_.stream().hold();
-        if (!in_work && !idle(state())) cancel();
+        if (!in_work && (by_writes || !idle(state()))) cancel();
         if (in_work) door_.keep_tools(publisher_.status());
         publisher_.tools_off();
     }
     if (latch.latched()) manual_.jogs().let_go(), service_.break_off(), publisher_.tools_off();
+    if (latch.latched() && by_writes) pending_stop_.request(true);  // a card stops only its own axis at a limit switch
     if (!latch.halted() || std::exchange(stop_taken_, true)) return;
     cancel();
 }

@@ -15,27 +15,30 @@ std::string write_16(Machine& m, const char* card, std::uint32_t address, std::u
     return refusal_of(m.manual_access().request({card, 16, address, value}, [](const auto&) {}));
 }
 
-/// Writes the registers that make the X axis of an MCX314 drive in + direction until it is stopped.
-void drive_x(Machine& m) {
-    constexpr std::uint32_t x = 1 << 8, wr0 = 0, wr6 = 12, wr7 = 14;
+/// Bits of WR0 that select an axis of an MCX314.
+constexpr std::uint32_t of_x = 1 << 8, of_y = 1 << 9;
+
+/// Writes the registers that make an axis of an MCX314 drive in + direction until it is stopped.
+void drive_by_writes(Machine& m, std::uint32_t axis) {
+    constexpr std::uint32_t wr0 = 0, wr6 = 12, wr7 = 14;
     struct Write {
         std::uint32_t address, value;
     };
     for (const auto& [address, value] : {Write{wr6, 0x1200},
                                          {wr7, 0x007A},
-                                         {wr0, x | 0x00},  // R: multiple 1
+                                         {wr0, axis | 0x00},  // R: multiple 1
                                          {wr6, 400},
-                                         {wr0, x | 0x02},  // A
+                                         {wr0, axis | 0x02},  // A
                                          {wr6, 100},
-                                         {wr0, x | 0x04},  // SV
+                                         {wr0, axis | 0x04},  // SV
                                          {wr6, 4000},
-                                         {wr0, x | 0x05},
-                                         {wr0, x | 0x22}})
+                                         {wr0, axis | 0x05},
+                                         {wr0, axis | 0x22}})
         EXPECT_EQ(write_16(m, "m", address, value), "");
 }
 
-bool x_moves(Machine& m) {
-    return m.rack().axes()[0].velocity(m.now()) != 0;
+bool axis_moves(Machine& m, std::size_t axis) {
+    return m.rack().axes()[axis].velocity(m.now()) != 0;
 }
 
 TEST(ManualAccess, IsAllowedToMeasuringCardsOnlyWhileAxesMove) {
@@ -119,6 +122,41 @@ TEST(ManualAccess, WritesToNoCardThatMovesWhileTheDoorIsOpen) {
     o.run(0.2);
 }
 
+/// The chip stops only the axis at its own switch.
+TEST(ManualAccess, MovesNoAxisOnceAnotherOneHasReachedItsLimitSwitch) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        drive_by_writes(m, of_x);
+        drive_by_writes(m, of_y);
+    });
+    o.at(0.5, [](Machine& m) {
+        EXPECT_TRUE(axis_moves(m, 0) && axis_moves(m, 1));
+        EXPECT_TRUE(m.wires().force("m.ylmtp", 0));
+    });
+    double moved_to = 0;
+    o.at(0.55, [&](Machine& m) {
+        EXPECT_FALSE(axis_moves(m, 0) || axis_moves(m, 1)) << "within 50 ms";
+        moved_to = m.status().axes[0].true_position;
+    });
+    o.at(1, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop) << name_of(m.state());
+        EXPECT_THAT(m.status().reason, HasSubstr("The + limit switch of Y was reached"));
+        m.reset();
+    });
+    o.run(1.5);
+    EXPECT_EQ(o.machine->state(), MachineState::standstill) << o.machine->status().reason;
+    EXPECT_EQ(o.machine->status().axes[0].true_position, moved_to);
+}
+
+TEST(ManualAccess, StartsAMotionThatTheAlarmOfAnOpenedDoorNames) {
+    Operated o(two_axes("[safety]\ndoor = true\n"));
+    o.at(0.1, [](Machine& m) { drive_by_writes(m, of_x); });
+    o.at(0.5, [](Machine& m) { EXPECT_TRUE(m.wires().force("door", 0)); });
+    o.run(0.6);
+    ASSERT_THAT(o.machine->status().alarms, testing::SizeIs(1));
+    EXPECT_THAT(o.machine->status().alarms[0].text, HasSubstr("the motion was stopped, the spindle is off"));
+}
+
 /// A cause that ends the motion that register writes have started at standstill.
 struct EndOfMotion {
     const char* name;
@@ -134,9 +172,9 @@ class MotionByRegisters : public testing::TestWithParam<EndOfMotion> {};
 TEST_P(MotionByRegisters, EndsOnEveryStopAndPreventsEveryStart) {
     Operated o(two_axes("[safety]\ndoor = true\n"));
     double moved_to = 0;
-    o.at(0.1, [](Machine& m) { drive_x(m); });
+    o.at(0.1, [](Machine& m) { drive_by_writes(m, of_x); });
     o.at(0.5, [&](Machine& m) {
-        EXPECT_TRUE(x_moves(m));
+        EXPECT_TRUE(axis_moves(m, 0));
         for (const std::string& refused :
              {refusal_of(m.manual().set_position('X', 0)), refusal_of(m.manual().jog('Y', 5)),
               refusal_of(m.manual().home("")), refusal_of(m.service().begin("m", {}, "", {}))})
@@ -144,14 +182,14 @@ TEST_P(MotionByRegisters, EndsOnEveryStopAndPreventsEveryStart) {
         GetParam().give(m);
     });
     o.at(0.55, [&](Machine& m) {
-        EXPECT_FALSE(x_moves(m)) << "within 50 ms";
+        EXPECT_FALSE(axis_moves(m, 0)) << "within 50 ms";
         moved_to = m.status().axes[0].true_position;
         EXPECT_FALSE(m.status().axes[0].position_valid);
     });
     o.at(1, [&](Machine& m) {
         EXPECT_EQ(name_of(m.state()), std::string(GetParam().state));
         EXPECT_EQ(m.status().axes[0].true_position, moved_to);
-        EXPECT_TRUE(m.wires().force("estop", 1));
+        for (const char* const wire : {"estop", "door"}) EXPECT_TRUE(m.wires().force(wire, 1));
         m.reset();
     });
     o.at(1.1, [&](Machine& m) {
@@ -169,7 +207,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(EndOfMotion{"stop", [](Machine& m) { m.stop(); }, "error stop"},
                     EndOfMotion{"reset", [](Machine& m) { m.reset(); }, "standstill"},
                     EndOfMotion{"disable", [](Machine& m) { EXPECT_TRUE(m.enable(false)); }, "disabled"},
-                    EndOfMotion{"estop", [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); }, "error stop"}),
+                    EndOfMotion{"estop", [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); }, "error stop"},
+                    EndOfMotion{"door", [](Machine& m) { EXPECT_TRUE(m.wires().force("door", 0)); }, "standstill"}),
     [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace
