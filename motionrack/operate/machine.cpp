@@ -159,7 +159,8 @@ void Machine::reset(const StopOrigin& by) {
 }
 
 void Machine::set_coolant(bool mist, bool flood) {
-    if (rack_.stop_latch().latched()) return;
+    const bool switches_on = (mist && !status().mist) || (flood && !status().flood);
+    if (switches_on && !conditions_.may_begin("The coolant was not switched on")) return;
     programs_.stream().set_coolant(mist, flood);
     publisher_.set_coolant(mist, flood);
 }

@@ -107,7 +107,8 @@ class Machine {
     void cancel(const StopOrigin& by = {});
     /// Ends an error stop, and drops programs and modal state; work offsets and positions stay. Stops any motion.
     void reset(const StopOrigin& by = {});
-    /// Switches the coolant immediately, otherwise like M7, M8 and M9. No effect while a stop is in force.
+    /// Switches the coolant immediately, otherwise like M7, M8 and M9. Has no effect if it would switch anything on
+    /// while nothing may begin: a stop is in force, the door is open, or starts are forbidden.
     void set_coolant(bool mist, bool flood);
     /// Acknowledges an alarm, as AlarmList::acknowledge.
     bool acknowledge_alarm(std::int64_t alarm) { return alarms_.acknowledge(alarm); }

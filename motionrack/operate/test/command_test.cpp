@@ -146,6 +146,35 @@ TEST(Machine, SwitchesNoCoolantWhileAStopIsInForce) {
     o.run(0.3);
 }
 
+TEST(Machine, SwitchesCoolantOffButNotOnWhileNothingMayBegin) {
+    const auto coolant = [](const Machine& m) { return std::pair(m.status().mist, m.status().flood); };
+    for (const bool door : {true, false}) {
+        SCOPED_TRACE(door ? "the door is open" : "starts are forbidden");
+        Operated o(two_axes("[safety]\ndoor = true\n"));
+        o.at(0.1, [=](Machine& m) {
+            m.set_coolant(true, false);
+            if (door) {
+                EXPECT_TRUE(m.wires().force("door", 0));
+            } else {
+                m.forbid_starts("journal", "The disk is full.");
+            }
+        });
+        o.at(0.2, [=](Machine& m) {
+            EXPECT_EQ(coolant(m), std::pair(!door, false));
+            m.set_coolant(!door, true);
+            EXPECT_EQ(coolant(m), std::pair(!door, false));
+            m.set_coolant(false, false);
+            EXPECT_EQ(coolant(m), std::pair(false, false));
+            m.set_coolant(true, false);
+            EXPECT_EQ(coolant(m), std::pair(false, false));
+            EXPECT_TRUE(m.wires().force("door", 1));
+            m.set_coolant(true, true);
+            EXPECT_EQ(coolant(m), std::pair(door, door));
+        });
+        o.run(0.3);
+    }
+}
+
 TEST(Machine, StandsStillWhereAnAxisToHomeIsUnknown) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.manual().home("Q")); });
