@@ -30,6 +30,20 @@ void Door::keep_tools(const Status& status) {
     if (!kept_) kept_ = Tools{status.spindle, status.mist, status.flood};
 }
 
+bool Door::keep_event(const control::gcode::CanonCall& event) {
+    using Kind = control::gcode::CanonCallKind;
+    if (kept_ && event.kind == Kind::spindle) kept_->spindle = event.spindle;
+    if (event.kind == Kind::coolant) keep_coolant(event.mist, event.flood);
+    if (kept_ && event.kind == Kind::end) kept_ = Tools{};
+    return kept_ || (was_open_ && contacts_.door_open());
+}
+
+void Door::keep_coolant(bool mist, bool flood) {
+    if (!kept_) return;
+    kept_->mist = mist;
+    kept_->flood = flood;
+}
+
 void Door::give_back_tools(Status& status) {
     if (!kept_) return;
     status.spindle = kept_->spindle;

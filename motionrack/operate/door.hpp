@@ -23,6 +23,11 @@ class Door {
     std::optional<std::string> take_opening(bool moves, bool held);
     /// Stores the spindle and coolant states of `status` for give_back_tools(), unless some are stored.
     void keep_tools(const Status& status);
+    /// Applies an event of a program, which may still pass while the axes decelerate, to the stored states. Returns
+    /// true if spindle and coolant must stay off: until the resume, or while the door is open.
+    bool keep_event(const control::gcode::CanonCall& event);
+    /// Applies a commanded coolant state to the stored ones, if there are any.
+    void keep_coolant(bool mist, bool flood);
     /// Restores the stored spindle and coolant states, once.
     void give_back_tools(Status& status);
     void forget_tools() { kept_.reset(); }

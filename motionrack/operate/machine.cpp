@@ -162,6 +162,7 @@ void Machine::set_coolant(bool mist, bool flood) {
     const bool switches_on = (mist && !status().mist) || (flood && !status().flood);
     if (switches_on && !conditions_.may_begin("The coolant was not switched on")) return;
     programs_.stream().set_coolant(mist, flood);
+    door_.keep_coolant(mist, flood);
     publisher_.set_coolant(mist, flood);
 }
 

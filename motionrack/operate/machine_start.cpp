@@ -32,6 +32,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     MOTIONRACK_CHECK(handover_.start(config));
     programs_.stream().on_event([this](const control::gcode::CanonCall& event, std::int64_t) {
         publisher_.pass_event(event);
+        if (door_.keep_event(event)) publisher_.tools_off();
         if (settings_.on_event) settings_.on_event(event);
     });
     rack_.on_slice(settings_.slice, [this] { slice(); });

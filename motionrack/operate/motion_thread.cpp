@@ -176,6 +176,7 @@ void Machine::drive() {
     }
     if (*driven != control::ExecutionState::idle || programs_.has_lines()) return;
     programs_.end();
+    door_.forget_tools();              // a hold that came with the last move has nothing to resume
     if (manual_.jogs().any()) return;  // commanded while this motion ended
     if (state() == MachineState::moving || state() == MachineState::jogging) publisher_.enter(MachineState::standstill);
 }

@@ -171,6 +171,69 @@ TEST(Door, OpenedAgainInAHoldKeepsTheSpindleOfTheProgram) {
     EXPECT_NEAR(o.x(), 60, 1e-3);
 }
 
+/// The program switches spindle and flood at 40 mm, in the middle of a motion; the door opens just before.
+TEST(Door, KeepsOffWhatAProgramSwitchesOnWhileItDeceleratesAndOnAfterTheResume) {
+    std::ptrdiff_t passed = 0;
+    for (const char* const profile : {"trapezoid", "jerk_limited"}) {
+        SCOPED_TRACE(profile);
+        rack::RackConfig config = two_axes(with_door);
+        config.controller.profile = profile;
+        Operated o(config);
+        bool opened = false, resumed = false;
+        o.each_status([&](const Status& status) {
+            if (opened && !resumed) {
+                EXPECT_FALSE(status.flood || status.mist) << "at " << to_seconds(status.at);
+                EXPECT_EQ(status.spindle, control::gcode::Spindle::off);
+            }
+            if (opened || status.axes[0].commanded < 39.5) return;
+            open_door(*o.machine, true);
+            opened = true;
+        });
+        o.at(0.02, set_all_positions);
+        o.at(0.1, [](Machine& m) {
+            EXPECT_TRUE(m.begin_program("G21 G90 G64 F3000 M7\nG1 X40\nM4 S500 M8\nG1 X80\nM2\n", "p"));
+        });
+        o.at(1.5, [&](Machine& m) {
+            EXPECT_EQ(m.state(), MachineState::hold) << name_of(m.state());
+            passed += std::count(o.events.begin(), o.events.end(), control::gcode::CanonCallKind::coolant) - 1;
+            open_door(m, false);
+        });
+        o.at(1.6, [&](Machine& m) {
+            resumed = true;
+            EXPECT_TRUE(m.resume());
+        });
+        o.at(1.8, [](Machine& m) {
+            EXPECT_EQ(m.status().spindle, control::gcode::Spindle::counter_clockwise);
+            EXPECT_TRUE(m.status().flood && m.status().mist);
+        });
+        o.run(5);
+        EXPECT_NEAR(o.x(), 80, 1e-3);
+    }
+    EXPECT_GT(passed, 0) << "events passed behind the open door";
+}
+
+TEST(Door, OpenedInAHoldRestoresTheCoolantThatWasSwitchedLast) {
+    Operated o(two_axes(with_door));
+    o.at(0.02, set_all_positions);
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200 M7 M8\nG1 X60\nM2\n", "p")); });
+    o.at(1, [](Machine& m) { open_door(m, true); });
+    o.at(1.2, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::hold) << name_of(m.state());
+        m.set_coolant(true, false);
+        EXPECT_FALSE(m.status().mist || m.status().flood);
+        m.set_coolant(false, false);
+        open_door(m, false);
+    });
+    o.at(1.3, [](Machine& m) {
+        m.set_coolant(true, false);
+        EXPECT_TRUE(m.status().mist) << "the door is closed";
+        EXPECT_TRUE(m.resume());
+        EXPECT_TRUE(m.status().mist);
+        EXPECT_FALSE(m.status().flood);
+    });
+    o.run(1.5);
+}
+
 TEST(Door, OpenedDuringAJogStopsItAndPreventsStartsUntilItIsClosed) {
     Operated o(two_axes(with_door + "[axis.X.switches]\nhome_mm = 0\n"));
     o.at(0.02, set_all_positions);
