@@ -104,6 +104,7 @@ void Machine::step() {
     const bool another_cause = state() == MachineState::error_stop && stop_ordered_ && !latch.is_ordered();
     if (latch.latched() && (state() != MachineState::error_stop || another_cause))
         return enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
+    alarms_.raise(validity_.take_losses());
     host_of(rack_).pass(settings_.slice);
 }
 
@@ -140,6 +141,10 @@ void Machine::wait_for_standstill() {
     rack::StopLatch& latch = rack_.stop_latch();
     if (latch.latched() && state() != MachineState::error_stop)  // losses stay, even with an immediate reset
         enter_error_stop(alarm_source(latch), stop_text(latch, ordered_by_));
+    if (pending_stop_.wants_reset()) {
+        latch.following().poll(now());
+        alarms_.raise(validity_.take_losses());
+    }
     const bool asked = pending_stop_.take_reset(latch.trips());
     const Result<void> reset = asked ? latch.reset() : Result<void>();
     if (!reset) publisher_.status().reason = reset.error().message;

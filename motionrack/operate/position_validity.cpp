@@ -93,6 +93,27 @@ std::vector<Alarm> PositionValidity::poll(Instant now, MachineState state) {
     return out;
 }
 
+std::vector<Alarm> PositionValidity::take_losses() {
+    std::vector<Alarm> out;
+    rack::StopLatch& latch = rack_.stop_latch();
+    if (!latch.latched()) return out;
+    invalidate_reset(false, out);
+    for (std::size_t i = 0; i < rack_.axes().size(); ++i) {
+        const rack::RackAxis& axis = rack_.axes()[i].config;
+        if (latch.keeps_position(axis.index()) || !of(axis.letter)) continue;
+        invalidate(axis.letter);
+        const bool exceeded = latch.following().has_exceeded(i);
+        Alarm& alarm = out.emplace_back();
+        alarm.source = exceeded ? "following error" : "position";
+        alarm.axis = axis.letter;
+        alarm.text = fmt::format(
+            "{}. The position of axis {} is not valid any more.",
+            exceeded ? latch.following().alarm_text(i) : fmt::format("Steps of {} may have been lost", axis.letter),
+            axis.letter);
+    }
+    return out;
+}
+
 std::string PositionValidity::invalidate_unknown() {
     std::string out;
     for (std::size_t i = 0; i < rack_.axes().size(); ++i) {

@@ -35,6 +35,9 @@ class PositionValidity {
     /// Returns alarms with source, text and axis for losses, count errors and following errors since the last call.
     /// Call regularly between motions.
     std::vector<Alarm> poll(Instant now, MachineState state);
+    /// Invalidates axes whose position the stop in force has lost since its error stop began. Returns their alarms.
+    /// Call in the error stop, and before a reset, after which the stop latch knows no loss.
+    std::vector<Alarm> take_losses();
     /// Invalidates axes that have lost their own position. Call at standstill. Returns their letters: "XY".
     std::string invalidate_unknown();
 

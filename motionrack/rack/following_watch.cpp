@@ -165,6 +165,12 @@ std::vector<FollowingWatch::Warning> FollowingWatch::take_warnings() {
     return out;
 }
 
+bool FollowingWatch::has_exceeded(std::size_t axis) const {
+    for (std::size_t i = 0; i < watched_.size(); ++i)
+        if (watched_[i].axis == axis && state_.axes[i].excess != 0) return true;
+    return false;
+}
+
 std::string FollowingWatch::alarm_text(std::size_t axis) const {
     const RackAxis& config = rack_.axes()[axis].config;
     double excess = 0;

@@ -52,6 +52,8 @@ class FollowingWatch final : public sim::Device {
     };
     /// Returns the unreported warnings, without those of an axis above its alarm limit.
     std::vector<Warning> take_warnings();
+    /// Returns true if the following error of this axis has exceeded its alarm limit since begin().
+    bool has_exceeded(std::size_t axis) const;
     /// "The following error of X was 1.004 mm, above its limit of 1 mm".
     std::string alarm_text(std::size_t axis) const;
 

@@ -125,6 +125,41 @@ TEST(OperatedServoAxis, LosesItsPositionWhereItsCardIsRestartedInAnErrorStop) {
     EXPECT_EQ(o.machine->status().alarms[1].axis, 'X');
 }
 
+/// The parameter: the reset comes in the slice of the push.
+class PushInAnErrorStop : public testing::TestWithParam<bool> {};
+
+TEST_P(PushInAnErrorStop, InvalidatesAServoThatItsFollowingErrorHasLostAlsoAfterAReset) {
+    rack::RackConfig config = carriage();
+    config.axes[0].following_error_alarm = 5;
+    Operated o(config);
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.manual().set_position('X', 100)); });
+    o.at(0.2, [](Machine& m) { EXPECT_TRUE(m.wires().force("estop", 0)); });
+    o.at(0.4, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        EXPECT_TRUE(m.status().axes[0].position_valid) << "it stood";
+        EXPECT_TRUE(m.wires().force("estop", 1));
+    });
+    o.at(0.5, [](Machine& m) {
+        EXPECT_TRUE(rack::inject_fault(m.rack(), "motor.push=1000", "X"));  // counts of 0.01 mm
+        if (GetParam()) m.reset();
+    });
+    o.at(0.6, [](Machine& m) {
+        EXPECT_FALSE(m.status().axes[0].position_valid);
+        if (!GetParam()) m.reset();
+    });
+    o.run(0.8);
+    const Status& status = o.machine->status();
+    EXPECT_EQ(status.state, MachineState::standstill) << status.reason;
+    EXPECT_FALSE(status.axes[0].position_valid);
+    ASSERT_THAT(status.alarms, testing::SizeIs(2));
+    EXPECT_EQ(status.alarms[1].source, "following error");
+    EXPECT_EQ(status.alarms[1].axis, 'X');
+    EXPECT_THAT(status.alarms[1].text, testing::HasSubstr("The following error of X was"));
+    EXPECT_THAT(status.alarms[1].text, testing::HasSubstr("The position of axis X is not valid any more."));
+}
+
+INSTANTIATE_TEST_SUITE_P(Resets, PushInAnErrorStop, testing::Bool());
+
 /// The host waits for the card, then for its position, before the line fails; the machine accepts further lines
 /// meanwhile.
 TEST(OperatedServoAxis, IsUsableAfterLinesAndHoldsDuringAHangOfItsCard) {
