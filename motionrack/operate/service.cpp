@@ -75,7 +75,7 @@ Result<void> Service::begin(const std::string& card, const StopOrigin& by, const
 
 Result<void> Service::end(Callback ready) {
     if (!on()) return fail(ErrorKind::refused, "No card is in service. Nothing was changed.");
-    ended_ = std::move(ready);
+    if (ready) ended_.push_back(std::move(ready));
     break_off();
     return {};
 }
@@ -226,7 +226,7 @@ void Service::finish() {
     else if (machine_.publisher_.state() == MachineState::stopping)
         machine_.publisher_.status().reason += note_;
     if (!machine_.rack_.stop_latch().latched()) note_.clear();
-    if (const Callback reported = std::exchange(ended_, {}))
+    for (const Callback& reported : std::exchange(ended_, {}))
         reported(taken ? Result<std::string>(sentence) : tl::unexpected<Error>(taken.error()));
 }
 

@@ -19,6 +19,7 @@
 #include <motionrack/rack/rack.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace motionrack::operate {
 
@@ -98,7 +99,8 @@ class Service {
     std::string card_, session_, working_, note_;
     StopOrigin by_;
     std::atomic<bool> stop_{false};
-    Callback begun_, ended_;
+    Callback begun_;
+    std::vector<Callback> ended_;  ///< all that have commanded the end
     std::unique_ptr<LiveCard> live_;
     std::unique_ptr<FunctionLibrary> library_;  ///< destroyed first of the two: it writes to the card
     std::optional<Pending> pending_;

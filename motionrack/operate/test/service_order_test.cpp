@@ -1,4 +1,5 @@
 // Service commands that meet in one slice, or other commands.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <motionrack/operate/service.hpp>
@@ -100,6 +101,20 @@ TEST(ServiceOrder, OneCallAtATimeAndNoneAfterTheEnd) {
                                     "refused: ReadLPS was not called: SetRange still runs. Wait until it ends, or end "
                                     "the service.",
                                     "Written.", "refused: ReadLPS was not called: the service ends."));
+}
+
+TEST(ServiceOrder, EveryCommandThatEndsTheServiceIsAnswered) {
+    ServiceTalk o;
+    o.at(0.05, [&](Machine& m) { o.begin(m); });
+    o.at(0.1, [&](Machine& m) {
+        for (const char* const who : {"anna", "bert"})
+            EXPECT_TRUE(m.service().end([&o, who](const Result<std::string>& reported) {
+                o.said.push_back(fmt::format("{}: {}", who, reported ? *reported : reported.error().message));
+            }));
+    });
+    o.run(0.2);
+    EXPECT_THAT(o.said, ElementsAre("in service", HasSubstr("anna: The service of card m has ended"),
+                                    HasSubstr("bert: The service of card m has ended")));
 }
 
 TEST(ServiceOrder, ProgramsCanBeStoppedAfterAService) {
