@@ -5,7 +5,8 @@
 //                                                                └──► its axes have no valid position; motion that
 //                                                                     it starts blocks every start until a stop
 //
-// Cards that measure and move nothing are accessed while axes move, too.
+// Cards that measure and move nothing are accessed while axes move, too, and between the calls of a service. During
+// homing and during a call the access waits.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +40,8 @@ class ManualAccess {
     /// is disabled or the door is open.
     Result<void> request(const BusAccess& access, Answered ready);
     bool any() const { return !pending_.empty(); }
-    /// Executes the pending accesses; virtual time advances meanwhile, and commands arrive.
+    /// Executes the pending accesses; in a service these are of cards that measure only. Virtual time advances
+    /// meanwhile, and commands arrive.
     void step();
     /// Returns the letter of an axis that a register write keeps moving; '\0': none. Call at standstill of the machine.
     char moving_axis() const;

@@ -50,7 +50,8 @@ Result<void> Service::check_begin(const std::string& card) const {
     if (!letters.empty() || machine_.publisher_.state() != MachineState::disabled)
         MOTIONRACK_CHECK(machine_.conditions_.ready(what));
     MOTIONRACK_CHECK(machine_.conditions_.axes_may_move(what, letters));
-    if (machine_.programs_.stream().has_work() || machine_.manual_.jogs().any() || machine_.conditions_.has_pending())
+    if (machine_.programs_.stream().has_work() || machine_.manual_.jogs().any() || machine_.manual_access_.any() ||
+        machine_.conditions_.has_pending())
         return fail(
             ErrorKind::refused,
             fmt::format("{}: a command is still being executed. Nothing was changed; try again at once.", what));
@@ -111,6 +112,7 @@ void Service::end_of(const std::string& session) {
 
 void Service::step() {
     if (!stop_ && !library_) take();
+    if (!stop_ && machine_.manual_access_.any()) machine_.manual_access_.step();  // of cards that measure only
     if (!stop_ && pending_) work();
     if (!stop_) host_of(machine_.rack_).pass(look_at_stop_every);
     if (live_) watch_live();

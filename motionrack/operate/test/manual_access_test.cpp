@@ -60,6 +60,37 @@ TEST(ManualAccess, IsAllowedToMeasuringCardsOnlyWhileAxesMove) {
     EXPECT_NEAR(o.x(), 30, 1e-9) << "the motion went on";
 }
 
+TEST(ManualAccess, IsAllowedToMeasuringCardsDuringAService) {
+    Operated o(two_axes(with_card));
+    int answered = 0;
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.service().begin("m", {}, "", {})); });
+    o.at(0.1, [&](Machine& m) {
+        EXPECT_TRUE(m.manual_access().request({"glass", 16, 0x2300 + ioflex02::offset("STATUS"), {}},
+                                              [&](const Result<std::uint32_t>& read) { answered += read ? 1 : 0; }));
+        EXPECT_THAT(refusal_of(m.manual_access().request({"m", 16, 0, {}}, [](const auto&) {})),
+                    HasSubstr("The card was not accessed: the machine is in state"));
+    });
+    o.at(0.2, [&](Machine& m) {
+        EXPECT_EQ(answered, 1);
+        EXPECT_EQ(m.service().card(), "m");
+    });
+    o.run(0.3);
+}
+
+/// A card without axes of the machine is in service also while the machine is disabled.
+TEST(ManualAccess, PrecedesAServiceThatBeginsAfterIt) {
+    Operated o(two_axes("[card.free]\ntype = \"mcx314\"\n"));
+    const auto begin = [](Machine& m) { return refusal_of(m.service().begin("free", {}, "", {})); };
+    o.at(0.05, [](Machine& m) { EXPECT_TRUE(m.enable(false)); });
+    o.at(0.1, [=](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::disabled);
+        EXPECT_TRUE(m.manual_access().request({"m", 16, 0, {}}, [](const auto&) {}));
+        EXPECT_THAT(begin(m), HasSubstr("a command is still being executed. Nothing was changed; try again at once."));
+    });
+    o.at(0.2, [=](Machine& m) { EXPECT_EQ(begin(m), ""); });
+    o.run(0.3);
+}
+
 TEST(ManualAccess, WritesNoValueThatIsTooWide) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
