@@ -61,7 +61,7 @@ bool RealtimeCommands::is_jogging() const {
     return on_.machine.state() == MachineState::jogging || on_.state.now() == State::jog;
 }
 
-/// Holds a moving machine, whoever moves it and in whatever state this session is: a stop needs no permission.
+/// Holds a moving machine, for any client and in any state of this session: a stop needs no permission.
 std::optional<ResetCause> RealtimeCommands::hold() {
     const State now = on_.state.now();
     if (on_.machine.state() == MachineState::homing) return ResetCause::implicit;

@@ -191,7 +191,7 @@ TEST(Door, KeepsOffWhatAProgramSwitchesOnWhileItDeceleratesAndOnAfterTheResume) 
         });
         o.at(0.02, set_all_positions);
         o.at(0.1, [](Machine& m) {
-            EXPECT_TRUE(m.begin_program("G21 G90 G64 F3000 M7\nG1 X40\nM4 S500 M8\nG1 X80\nM2\n", "p"));
+            EXPECT_TRUE(m.begin_program("G21 G90 G64 F3000 M7\nG1 X40\nM4 S500 M8\nG1 X80 Y2\nM2\n", "p"));
         });
         o.at(1.5, [&](Machine& m) {
             EXPECT_EQ(m.state(), MachineState::hold) << name_of(m.state());
