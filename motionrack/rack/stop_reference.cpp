@@ -68,9 +68,9 @@ releases it:
   Ctrl-C with 130.
 
 Opening a door (`door = true` in `[safety]`, the wire `door`) holds the feed of a served machine, stops probing moves,
-jogs and homing, switches spindle and coolant off, and raises an alarm; lasers, belts, stages and outputs react as to a
-STOP command. Nothing starts while it is open. Closing it does not start motion: a resume does, and switches spindle and
-coolant on again. A run has no operator, and ends.
+jogs, homing and motion by register writes, switches spindle and coolant off, and raises an alarm; lasers, belts, stages
+and outputs react as to a STOP command. Nothing starts while it is open, coolant neither. Closing it does not start
+motion: a resume does, and switches spindle and coolant on again as last commanded. A run has no operator, and ends.
 
 A card in service is driven only by its library's functions, which the user calls by hand. Every source stops all of
 its axes without a ramp, within 5 ms, and ends the service with the latch set. The end of the service, lost control, a
