@@ -104,10 +104,9 @@ void PortListener::take_some() {
     for (int taken = 0; taken < max_taken_at_once; ++taken) {
         error_code error;
         tcp::socket socket(io_);
-        tcp::endpoint remote;
-        acceptor_.accept(socket, remote, error);
+        acceptor_.accept(socket, error);
         if (!error) {
-            take(std::move(socket), remote.address());
+            take(std::move(socket));
             continue;
         }
         if (error == asio::error::would_block) break;
@@ -128,8 +127,10 @@ bool PortListener::close_idle() {
 }
 
 /// Each connection of a flood costs this; everything else waits for its first bytes.
-void PortListener::take(tcp::socket socket, const asio::ip::address& from) {
-    const asio::ip::address remote = unmapped(from);
+void PortListener::take(tcp::socket socket) {
+    error_code closed;  // of a flood, most connections that had to wait
+    const asio::ip::address remote = unmapped(socket.remote_endpoint(closed).address());
+    if (closed) return;
     Peer peer;
     peer.address = remote.to_string();
     peer.loopback = remote.is_loopback();

@@ -47,7 +47,7 @@ class PortListener {
     void accept();
     void take_some();
     bool close_idle();
-    void take(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& from);
+    void take(boost::asio::ip::tcp::socket socket);
     void tick();
 
     boost::asio::io_context& io_;
